@@ -1,0 +1,403 @@
+"""How Hooke is built, tested, installed and packed. `./waf --help` lists the commands and options.
+
+Sources are found by where they lie, so that a new one needs no line here:
+
+    core/*.c           a static library, in the plugin and in everything else
+    plugin/*.c         the plugin, hooke.lv2/hooke.so
+    ttl/, presets/     the plugin's descriptions and presets, beside it
+    tools/main.c       the program `hooke`; the other tools/*.c are a library which the tests share
+    tests/test_*.c     a test program each; the other tests/*.c are linked into all of them
+    tests/test_*.sh    run as tests too
+"""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+from waflib import Build, Configure, Context, Errors, Options
+
+APPNAME = 'hooke'
+VERSION = '0.2.0'
+
+top = '.'
+out = 'build'
+
+default_prefix = '/usr/local'
+
+# Configure when needed, and again with the same options when this file has changed.
+Configure.autoconfig = 'clobber'
+
+# The rooms of core/ which know LAPACK. They serve the tools and the tests and stay out of the plugin.
+LAPACK_ROOMS = ['modes']
+
+WARNINGS = '''
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wcast-qual -Wvla
+    -Wdouble-promotion -Wwrite-strings -Wundef -Wformat=2 -Wno-psabi
+'''.split()
+
+# Not -ffast-math, which would delete the NaN checks, and no contraction, so that every compiler gives the same bits.
+MATHS = ['-fno-math-errno', '-fno-trapping-math', '-ffp-contract=off']
+
+SANITIZERS = ['-fsanitize=address,undefined', '-fno-sanitize-recover=all', '-fno-omit-frame-pointer']
+
+SYSTEM_PREFIXES = ['/usr', '/usr/local', os.path.expanduser('~/.local')]
+
+# Left out of an archive made where git cannot say what is tracked.
+UNTRACKED = ['build', '.git', '.waf-cache', '.lock-waf*', 'hooke-*.tar.*', '**/__pycache__']
+
+# The exit status of a test that could not run here.
+SKIP = 77
+
+# What is fixed by `configure` and cannot be changed by a later command.
+CONFIGURE_OPTIONS = ['prefix', 'lv2dir', 'user', 'debug', 'sanitize', 'werror']
+
+
+# Options and configuration
+
+
+def options(opt):
+    opt.load('compiler_c')
+    group = opt.add_option_group('Hooke: options of configure, or of the first command')
+    group.add_option('--lv2dir', help='where LV2 bundles are installed [default: <prefix>/lib/lv2]')
+    group.add_option('--user', action='store_true', help='install for this user: ~/.lv2 and the prefix ~/.local')
+    group.add_option('--debug', action='store_true', help='build for a debugger')
+    group.add_option('--sanitize', action='store_true', help='build with ASan and UBSan, stopping at the first error')
+    group.add_option('--werror', action='store_true', help='let a warning fail the build')
+    group = opt.add_option_group('Hooke: options of test')
+    group.add_option('--long', action='store_true', help='run the long versions of the tests as well')
+    group.add_option('--only', default='', metavar='WORD', help='run the test programs with WORD in their name')
+    group.add_option('--timeout', type=int, default=600, metavar='S', help='allow each program S seconds [default: 600]')
+
+
+def configure(conf):
+    """finds the compiler and the libraries, and fixes the options"""
+    keep_environment(conf)
+    conf.load('compiler_c')
+    set_directories(conf)
+    check_libraries(conf)
+    set_flags(conf)
+    conf.env.CHOICES = {name: getattr(conf.options, name) for name in CONFIGURE_OPTIONS}
+    conf.msg('Installing the program in', conf.env.BINDIR)
+    conf.msg('Installing the bundle in', conf.env.LV2DIR)
+
+
+# A configuration that is renewed by itself keeps the compiler it was first given.
+def keep_environment(conf):
+    kept = getattr(conf.options, 'environment', {})
+    conf.environ.update({name: value for name, value in kept.items() if name not in conf.environ})
+    names = ['CC', 'AR', 'CFLAGS', 'CPPFLAGS', 'LDFLAGS', 'LINKFLAGS', 'PKG_CONFIG_PATH']
+    conf.options.environment = {name: conf.environ[name] for name in names if name in conf.environ}
+
+
+def set_directories(conf):
+    home = os.path.expanduser('~')
+    lv2dir = None
+    if conf.options.user:
+        conf.env.PREFIX = os.path.join(home, '.local')
+        conf.env.BINDIR = os.path.join(home, '.local', 'bin')
+        lv2dir = os.path.join(home, '.lv2')
+    conf.env.LV2DIR = conf.options.lv2dir or lv2dir or os.path.join(conf.env.PREFIX, 'lib', 'lv2')
+
+
+def check_libraries(conf):
+    for lib in ['m', 'dl', 'pthread']:
+        conf.check_cc(lib=lib, uselib_store=lib.upper(), mandatory=lib == 'm')
+    for package in ['lv2', 'lilv-0', 'sndfile', 'smf', 'cmocka', 'lapack']:
+        store = package.split('-')[0].upper()
+        conf.check_cfg(package=package, uselib_store=store, args=['--cflags', '--libs'])
+        # Their headers are not held to our warnings.
+        for path in conf.env['INCLUDES_' + store]:
+            conf.env.append_value('CFLAGS_' + store, ['-isystem', path])
+        conf.env['INCLUDES_' + store] = []
+    conf.env.SPEC_LV2DIR = spec_lv2dir(conf)
+
+
+# Where lv2 itself has its bundles, which a host needs to read ours.
+def spec_lv2dir(conf):
+    directory = conf.cmd_and_log(conf.env.PKGCONFIG + ['--variable=lv2dir', 'lv2'], quiet=True).strip()
+    prefix = conf.cmd_and_log(conf.env.PKGCONFIG + ['--variable=prefix', 'lv2'], quiet=True).strip()
+    return directory or os.path.join(prefix, 'lib', 'lv2')
+
+
+# Ours come first, so that the user's CFLAGS and LDFLAGS have the last word.
+def set_flags(conf):
+    optimization = ['-Og', '-g'] if conf.options.debug else ['-O3']
+    flags = ['-std=c11', '-fvisibility=hidden'] + optimization + MATHS + WARNINGS
+    if conf.options.werror:
+        flags += ['-Werror']
+    if conf.options.sanitize:
+        flags += ['-g'] + SANITIZERS
+        conf.env.prepend_value('LINKFLAGS', SANITIZERS)
+    conf.env.prepend_value('CFLAGS', flags)
+    conf.env.append_value('INCLUDES', [conf.path.abspath()])
+    if conf.env.DEST_OS != 'darwin':
+        conf.env.PLUGIN_LINKFLAGS = ['-Wl,--exclude-libs,ALL', '-Wl,--as-needed']
+        if not conf.options.sanitize:
+            conf.env.PLUGIN_LINKFLAGS += ['-Wl,-z,defs', '-static-libgcc']
+
+
+# Building
+
+
+def build(bld):
+    """compiles everything into build/"""
+    refuse_late_options(bld)
+    build_core(bld)
+    build_bundle(bld)
+    build_tools(bld)
+    build_tests(bld)
+    bld.add_post_fun(link_bundle)
+    bld.add_post_fun(write_compile_commands)
+    if bld.is_install < 0:
+        spare_system_directories(bld)
+
+
+# An option of configure given to a later command would be lost in silence.
+def refuse_late_options(bld):
+    for name in CONFIGURE_OPTIONS:
+        given = getattr(Options.options, name)
+        if given not in (None, default_prefix, bld.env.CHOICES.get(name)):
+            bld.fatal('--%s is for configure: run `./waf configure` with all the options you want' % name)
+
+
+def build_core(bld):
+    in_lapack_rooms = ['core/%s.c' % room for room in LAPACK_ROOMS]
+    library(bld, 'hooke_core', bld.path.ant_glob('core/*.c', excl=in_lapack_rooms), use='M')
+    library(bld, 'hooke_analysis', bld.path.ant_glob(in_lapack_rooms), use='hooke_core LAPACK')
+
+
+def build_bundle(bld):
+    bundle = '${LV2DIR}/hooke.lv2'
+    env = bld.env.derive()
+    env.cshlib_PATTERN = '%s.so'
+    sources = bld.path.ant_glob('plugin/*.c')
+    if sources:
+        bld.shlib(source=sources, target='hooke.lv2/hooke', name='hooke_plugin', env=env, install_path=bundle,
+                  use='hooke_core LV2 M', linkflags=bld.env.PLUGIN_LINKFLAGS)
+    for node in bld.path.ant_glob(['ttl/*.ttl', 'presets/*.ttl']):
+        bld(features='subst', is_copy=True, source=node, target='hooke.lv2/' + node.name, install_path=bundle)
+    for node in bld.path.ant_glob('ttl/*.ttl.in'):
+        bld(features='subst', source=node, target='hooke.lv2/' + node.name[:-len('.in')], install_path=bundle,
+            LIB_EXT='.so')
+
+
+def build_tools(bld):
+    defines = ['HOOKE_VERSION="%s"' % VERSION, 'HOOKE_LV2DIR="%s"' % bld.env.LV2DIR]
+    use = 'hooke_analysis hooke_core LILV SNDFILE SMF LV2 M DL PTHREAD'
+    library(bld, 'hooke_tools', bld.path.ant_glob('tools/*.c', excl=['tools/main.c']), use=use, defines=defines)
+    for node in bld.path.ant_glob('tools/main.c'):
+        bld.program(source=[node], target='hooke', name='hooke_program', use='hooke_tools ' + use, defines=defines)
+
+
+def build_tests(bld):
+    use = 'hooke_tools hooke_analysis hooke_core CMOCKA LILV SNDFILE SMF LAPACK LV2 M DL PTHREAD'
+    library(bld, 'hooke_helpers', bld.path.ant_glob('tests/*.c', excl=['tests/test_*.c']), use=use)
+    for node in bld.path.ant_glob('tests/test_*.c'):
+        bld.program(source=[node], target='tests/' + node.name[:-len('.c')], use='hooke_helpers ' + use,
+                    install_path=None)
+
+
+# A static library fit for the plugin as well; none when there is nothing to put into it.
+def library(bld, name, sources, **more):
+    if sources:
+        bld.stlib(source=sources, target=name, cflags=['-fPIC'], install_path=None, **more)
+
+
+# waf removes each directory which it has emptied; keep those which a system has for everybody.
+def spare_system_directories(bld):
+    prefix = os.path.normpath(bld.env.PREFIX)
+    kept = [bld.env.BINDIR, os.path.join(prefix, 'lib')] if prefix in SYSTEM_PREFIXES else []
+
+    def remove_emptied(_, path):
+        directory = os.path.dirname(path)
+        try:
+            while directory not in kept:
+                os.rmdir(directory)
+                directory = os.path.dirname(directory)
+        except OSError:
+            pass  # not empty, or gone
+
+    Build.inst.rm_empty_dirs = remove_emptied
+
+
+# A host takes whatever lies in a directory of LV2_PATH for a bundle, so show it one with nothing but ours.
+def link_bundle(bld):
+    link = bld.bldnode.make_node('lv2/hooke.lv2')
+    link.parent.mkdir()
+    if not os.path.lexists(link.abspath()):
+        os.symlink('../hooke.lv2', link.abspath())
+
+
+# For clangd, clang-tidy and their like. A task run with its execution stubbed out only notes its command.
+def write_compile_commands(bld):
+    directory = bld.bldnode.abspath()
+    entries = []
+    for task in all_tasks(bld):
+        if type(task).__name__ == 'c':
+            task.exec_command = lambda *args, **kw: 0
+            task.run()
+            entries.append({'directory': directory, 'file': task.inputs[0].abspath(), 'arguments': task.last_cmd})
+    bld.bldnode.make_node('compile_commands.json').write(json.dumps(entries, indent=2) + '\n')
+
+
+def all_tasks(bld):
+    generators = [generator for group in bld.groups for generator in group]
+    return [task for generator in generators for task in getattr(generator, 'tasks', [])]
+
+
+# Testing and demonstrating: both build first
+
+
+class TestContext(Build.BuildContext):
+    cmd = 'test'
+    fun = 'test'
+
+
+class DemoContext(Build.BuildContext):
+    cmd = 'demo'
+    fun = 'demo'
+
+
+def test(bld):
+    """builds, then runs all tests, or with --only some of them"""
+    build(bld)
+    bld.add_post_fun(run_tests)
+
+
+def demo(bld):
+    """builds, then renders doc/demo.mid through the plugin to build/demo.wav"""
+    build(bld)
+    bld.add_post_fun(render_demo)
+
+
+def render_demo(bld):
+    program = bld.bldnode.make_node('hooke').abspath()
+    wav = bld.bldnode.make_node('demo.wav').path_from(bld.path)
+    if not os.path.exists(program):
+        bld.fatal('there is no program to render the demo with')
+    if subprocess.call([program, 'render', 'doc/demo.mid', wav], cwd=bld.path.abspath(), env=run_environment(bld)):
+        bld.fatal('the demo was not rendered')
+
+
+# The built bundle and the specifications are what a host sees, whatever else is installed.
+def run_environment(bld):
+    build_dir = bld.bldnode.abspath()
+    env = dict(os.environ)
+    env['LV2_PATH'] = os.pathsep.join([os.path.join(build_dir, 'lv2'), bld.env.SPEC_LV2DIR])
+    env['HOOKE_BUNDLE'] = os.path.join(build_dir, 'lv2', 'hooke.lv2')
+    env['HOOKE_BIN'] = os.path.join(build_dir, 'hooke')
+    env['HOOKE_SOURCE'] = bld.path.abspath()
+    env.setdefault('UBSAN_OPTIONS', 'print_stacktrace=1')
+    if bld.options.long:
+        env['HOOKE_TEST_LONG'] = '1'
+    return env
+
+
+# Those that measure speed run alone, after all others.
+def run_tests(bld):
+    programs = test_programs(bld)
+    alone = [program for program in programs if program[0].startswith('test_speed')]
+    side_by_side = [program for program in programs if program not in alone]
+
+    def run(program):
+        result = run_test(bld, *program)
+        report(result)
+        return result
+
+    with ThreadPoolExecutor(bld.jobs) as pool:
+        results = list(pool.map(run, side_by_side))
+    results += [run(program) for program in alone]
+    close(bld, results)
+
+
+def test_programs(bld):
+    compiled = [node.name[:-len('.c')] for node in bld.path.ant_glob('tests/test_*.c')]
+    programs = [(name, bld.bldnode.make_node('tests/' + name).abspath()) for name in compiled]
+    programs += [(node.name, node.abspath()) for node in bld.path.ant_glob('tests/test_*.sh')]
+    return [program for program in programs if bld.options.only in program[0]]
+
+
+# The output goes to a file rather than a pipe: a pipe held open by a stray child would never end.
+def run_test(bld, name, path):
+    log = bld.bldnode.make_node('tests/%s.log' % name)
+    log.parent.mkdir()
+    start = time.monotonic()
+    with open(log.abspath(), 'wb') as output:
+        process = subprocess.Popen([path], cwd=bld.bldnode.abspath(), env=run_environment(bld), stdin=subprocess.DEVNULL,
+                                   stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+        try:
+            code = process.wait(bld.options.timeout)
+        except subprocess.TimeoutExpired:
+            code = None
+        finally:
+            if process.returncode is None:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+    with open(log.abspath(), encoding='utf-8', errors='replace') as output:
+        return judge(name, code, output.read(), time.monotonic() - start)
+
+
+# Count the single tests. However a program ended, it is never taken for a success that it was not.
+def judge(name, code, output, seconds):
+    counts = {word: cmocka_count(word, output) for word in ['PASSED', 'FAILED', 'SKIPPED']}
+    if name.endswith('.sh'):
+        counts = {'PASSED': int(code == 0), 'FAILED': 0, 'SKIPPED': 0}
+    if code == SKIP and not any(counts.values()):
+        counts['SKIPPED'], code = 1, 0
+    trouble = ''
+    if code is None:
+        trouble = 'timed out'
+    elif code < 0:
+        trouble = 'killed by ' + signal.Signals(-code).name
+    elif code > 0:
+        trouble = 'exit status %d' % code
+    elif not any(counts.values()):
+        trouble = 'ran no test'
+    if trouble:
+        counts['FAILED'] = max(1, counts['FAILED'])
+    return {'name': name, 'counts': counts, 'trouble': trouble, 'output': output, 'seconds': seconds}
+
+
+def cmocka_count(word, output):
+    found = re.findall(r'\[ +%s +\] (?:.*: )?(\d+) test\(s\)' % word, output)
+    return sum(int(number) for number in found)
+
+
+def report(result):
+    counts = ', '.join('%d %s' % (n, word.lower()) for word, n in result['counts'].items() if n)
+    failed = result['counts']['FAILED']
+    line = '%-28s %-32s %7.2f s  %s' % (result['name'], counts, result['seconds'], result['trouble'])
+    print(line.rstrip() + ('\n' + result['output'].rstrip() if failed else ''), flush=True)
+
+
+def close(bld, results):
+    passed, failed, skipped = [sum(r['counts'][word] for r in results) for word in ['PASSED', 'FAILED', 'SKIPPED']]
+    line = '%d passed, %d failed' % (passed, failed)
+    print(line + (', %d skipped' % skipped if skipped else ''), flush=True)
+    if failed:
+        bld.fatal('failed: ' + ' '.join(r['name'] for r in results if r['counts']['FAILED']))
+    if not passed + skipped:
+        bld.fatal('no test ran')
+
+
+# Packing
+
+
+def dist(ctx):
+    """packs the tracked files into hooke-<version>.tar.xz"""
+    ctx.algo = 'tar.xz'
+    ctx.files = tracked_files(ctx) or ctx.path.ant_glob('**', excl=UNTRACKED)
+
+
+# None in a tree that was itself unpacked from such an archive.
+def tracked_files(ctx):
+    try:
+        names = ctx.cmd_and_log(['git', 'ls-files', '-z'], quiet=Context.BOTH).split('\0')
+    except Errors.WafError:
+        return []
+    nodes = [ctx.path.find_node(name) for name in names if name]
+    return [node for node in nodes if node]
