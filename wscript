@@ -70,7 +70,7 @@ def options(opt):
     group = opt.add_option_group('Hooke: options of test')
     group.add_option('--long', action='store_true', help='run the long versions of the tests as well')
     group.add_option('--only', default='', metavar='WORD', help='run the test programs with WORD in their name')
-    group.add_option('--timeout', type=int, default=600, metavar='S', help='allow each program S seconds [default: 600]')
+    group.add_option('--timeout', type=int, default=600, metavar='S', help='allow each program S seconds [600]')
 
 
 def configure(conf):
@@ -327,8 +327,9 @@ def run_test(bld, name, path):
     log.parent.mkdir()
     start = time.monotonic()
     with open(log.abspath(), 'wb') as output:
-        process = subprocess.Popen([path], cwd=bld.bldnode.abspath(), env=run_environment(bld), stdin=subprocess.DEVNULL,
-                                   stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+        process = subprocess.Popen([path], cwd=bld.bldnode.abspath(), env=run_environment(bld),
+                                   stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
+                                   start_new_session=True)
         try:
             code = process.wait(bld.options.timeout)
         except subprocess.TimeoutExpired:
