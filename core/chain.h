@@ -1,0 +1,122 @@
+/**
+   One string as a chain of masses, in single precision: the loop that makes the sound.
+
+   The step is that of core/tuning.h,
+
+       y = k1 x + k2 L x + z1 u ;   u += (y_{i−1} − y_i) + (y_{i+1} − y_i) − z0 u ;   x += u,
+
+   which keeps position x and scaled velocity u = h v, never two positions: in floats that is worth
+   40 dB.
+
+   Layout.  The string is cut into CHAIN_LANES segments of S cells each, one a lane: mass i is lane
+   i div S of cell i mod S.  So neighbours are in the cells beside, and lanes are shifted only at
+   the two seams of a step.  Where the masses do not fill the last lane, the one after the last is
+   held at rest by a mask, and is the wall.
+
+   Thread: one at a time; everything here is real-time safe.
+*/
+#ifndef HOOKE_CORE_CHAIN_H
+#define HOOKE_CORE_CHAIN_H
+
+#include "core/tuning.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum {
+  CHAIN_LANES = 8,
+  CHAIN_MAX_MASSES = 1024,
+  CHAIN_MAX_CELLS = CHAIN_MAX_MASSES / CHAIN_LANES,
+  CHAIN_MAX_TAPS = 4,
+  CHAIN_ALIGNMENT = 64, /**< Of the cells [bytes] */
+};
+
+typedef float ChainVector __attribute__((vector_size(CHAIN_LANES * sizeof(float))));
+
+/** CHAIN_LANES masses: where they are, and how far they move in a step. */
+typedef struct {
+  ChainVector x;
+  ChainVector u;
+} ChainCell;
+
+/** StringCoefs in the precision of the loop. */
+typedef struct {
+  float k1, k2, z0, z1;
+} ChainCoefs;
+
+/** A place where the chain is read: weight[0] x[mass[0]] + weight[1] x[mass[1]]; masses count from
+ * 0. */
+typedef struct {
+  uint32_t mass[2];
+  float weight[2];
+} ChainTap;
+
+/** A string; zero is one without masses. */
+typedef struct {
+  ChainCell* cells;   /**< In the caller's memory, aligned to CHAIN_ALIGNMENT */
+  uint32_t n_masses;  /**< N */
+  uint32_t n_cells;   /**< S = ⌈N / CHAIN_LANES⌉ */
+  uint32_t n_gliding; /**< Steps until `goal` is reached; 0 when the coefficients stand still */
+  ChainCoefs now;     /**< What the next step uses, while still */
+  ChainCoefs change;  /**< What a step adds to it, while gliding */
+  ChainCoefs goal;    /**< Where a glide ends */
+} Chain;
+
+/** Cells that hold `n_masses`. */
+uint32_t chain_cells(uint32_t n_masses);
+
+/**
+   Make a chain of `n_masses` at rest.
+
+   @param cells     chain_cells(n_masses) of them, aligned to CHAIN_ALIGNMENT; kept by the chain,
+   not owned
+   @param n_masses  1 to CHAIN_MAX_MASSES
+*/
+void chain_init(Chain* chain, ChainCell* cells, uint32_t n_masses);
+
+/** Bring every mass to rest. */
+void chain_rest(Chain* chain);
+
+/** Set the coefficients at once. */
+void chain_set(Chain* chain, StringCoefs coefs);
+
+/**
+   Move the coefficients to `coefs` in a straight line over `n_frames` steps (0: at once), from
+   wherever they are. The stable region is convex in them, so a way from one stable string to
+   another is stable all along.
+*/
+void chain_glide(Chain* chain, StringCoefs coefs, uint32_t n_frames);
+
+/** Position of mass `i`, 0 ≤ i < n_masses, in the units of the caller's excitation. */
+float chain_position(const Chain* chain, uint32_t i);
+
+/** Scaled velocity u = h v of mass `i`. */
+float chain_velocity(const Chain* chain, uint32_t i);
+
+/** Put mass `i` at position `x` with scaled velocity `u`. */
+void chain_place(Chain* chain, uint32_t i, float x, float u);
+
+/** Add `u` to the scaled velocity of mass `i`. */
+void chain_push(Chain* chain, uint32_t i, float u);
+
+/**
+   The amplitude of the fundamental if all the energy were in it: √(2/(N + 1) Σ (x² + u²/a1)). Never
+   less than the fundamental's own.
+
+   @param a1  Its a, > 0; INFINITY: displacement alone
+*/
+float chain_amplitude(const Chain* chain, double a1);
+
+/**
+   Step the chain `n_frames` times, and after each step add what each tap reads to its output.
+
+   The way in which n_frames are cut into calls does not change a bit of it.
+
+   @param n_taps  1, 2 or CHAIN_MAX_TAPS
+   @param out     n_taps buffers of n_frames
+*/
+void chain_run(
+    Chain* chain, uint32_t n_frames, const ChainTap* taps, uint32_t n_taps, float* const* out);
+
+#endif

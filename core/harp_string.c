@@ -1,0 +1,126 @@
+#include "core/harp_string.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Amplitude, of the loudest, at which a string has died away. */
+static const double SILENCE = 1e-6;
+
+/* τ of a string that is choked [s]. */
+static const double CHOKE_S = 0.005;
+
+static double decay_s(const Patch* patch, uint32_t key) {
+  return 1.0 / (patch->damping_per_s * exp2(patch->tracking * ((double)key - 69.0) / 12.0));
+}
+
+/*
+  A damper acts from outside: it adds to the fundamental's damping, but what sits between the masses
+  stays as it was. So the share of loss falls by as much as the damping g = 1 − exp(−2h/τ) rises.
+*/
+static TuningTarget
+target_of(const HarpString* string, const Patch* patch, double f0_hz, Damper damper) {
+  const double open_s = decay_s(patch, string->key);
+  const double hand_s = damper == DAMPER_CHOKING ? CHOKE_S : patch->release_s;
+  const double tau_s = damper == DAMPER_OFF ? open_s : fmin(open_s, hand_s);
+  const double steps = string->rate_hz;
+  return (TuningTarget){
+      .rate_hz = string->rate_hz,
+      .tone = {.f0_hz = f0_hz, .tau_s = tau_s},
+      .loss = patch->loss * (expm1(-2.0 / (open_s * steps)) / expm1(-2.0 / (tau_s * steps))),
+      .inharmonicity = patch->inharmonicity,
+  };
+}
+
+/* Remember what the coefficients were made for. */
+static void note_design(HarpString* string, double f0_hz, StringCoefs coefs) {
+  string->f0_hz = f0_hz;
+  string->a1 = tuning_mode(coefs, string->chain.n_masses, 1).a;
+  string->headroom = tuning_headroom(coefs, string->chain.n_masses);
+}
+
+/* String it anew from rest; false if it cannot sound at this pitch. */
+static bool restring(HarpString* string, const Patch* patch, double f0_hz) {
+  const TuningTarget target = target_of(string, patch, f0_hz, DAMPER_OFF);
+  const uint32_t limit =
+      patch->max_masses < string->capacity ? patch->max_masses : string->capacity;
+  const uint32_t n_masses = tuning_max_masses(&target, limit);
+  StringCoefs coefs = {0};
+  if (n_masses == 0 || tuning_solve(&target, n_masses, &coefs)) {
+    return false;
+  }
+  chain_init(&string->chain, string->cells, n_masses);
+  chain_set(&string->chain, coefs);
+  note_design(string, f0_hz, coefs);
+  string->is_awake = true;
+  string->damper = DAMPER_OFF;
+  string->loudest = 0.0;
+  return true;
+}
+
+double harp_string_pitch_hz(const Patch* patch, uint32_t key, double bend_semitones) {
+  return patch->tuning_hz * exp2(((double)key - 69.0 + bend_semitones) / 12.0);
+}
+
+uint32_t harp_string_capacity(double rate_hz, uint32_t key, double lowest_hz) {
+  const TuningTarget lightest = {
+      .rate_hz = rate_hz,
+      .tone = {.f0_hz = lowest_hz * exp2(((double)key - 69.0) / 12.0), .tau_s = INFINITY},
+  };
+  return tuning_max_masses(&lightest, CHAIN_MAX_MASSES);
+}
+
+void harp_string_init(
+    HarpString* string, double rate_hz, uint32_t key, ChainCell* cells, uint32_t capacity) {
+  *string = (HarpString){.cells = cells, .capacity = capacity, .key = key, .rate_hz = rate_hz};
+}
+
+void harp_string_sleep(HarpString* string) {
+  if (string->is_awake) {
+    chain_rest(&string->chain);
+    string->is_awake = false;
+    string->loudest = 0.0;
+  }
+}
+
+void harp_string_pluck(
+    HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide) {
+  if (string->is_awake) {
+    harp_string_retune(string, patch, bend_semitones, DAMPER_OFF, n_glide);
+  } else if (!restring(string, patch, harp_string_pitch_hz(patch, string->key, bend_semitones))) {
+    return;
+  }
+  if (string->is_awake && string->damper == DAMPER_OFF) {
+    exciter_pluck(&string->chain, pluck, 2.0 * PI * string->f0_hz / string->rate_hz);
+    string->loudest = 0.0;
+  }
+}
+
+void harp_string_retune(HarpString* string,
+                        const Patch* patch,
+                        double bend_semitones,
+                        Damper damper,
+                        uint32_t n_glide) {
+  double f0_hz = harp_string_pitch_hz(patch, string->key, bend_semitones);
+  TuningTarget target = target_of(string, patch, f0_hz, damper);
+  StringCoefs coefs = {0};
+  if (tuning_fit(&target, string->chain.n_masses, &coefs)) {
+    f0_hz = string->f0_hz;
+    damper = DAMPER_CHOKING;
+    target = target_of(string, patch, f0_hz, damper);
+    if (tuning_fit(&target, string->chain.n_masses, &coefs)) {
+      harp_string_sleep(string);
+      return;
+    }
+  }
+  string->damper = damper;
+  note_design(string, f0_hz, coefs);
+  chain_glide(&string->chain, coefs, n_glide);
+}
+
+void harp_string_doze(HarpString* string) {
+  string->loudest = fmax(string->loudest, chain_amplitude(&string->chain, INFINITY));
+  if (chain_amplitude(&string->chain, string->a1) < SILENCE * string->loudest) {
+    harp_string_sleep(string);
+  }
+}

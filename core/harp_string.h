@@ -1,0 +1,74 @@
+/**
+   One string of the harp: a chain, the key it belongs to, and its damper.
+
+   Thread: one at a time; real-time safe.
+*/
+#ifndef HOOKE_CORE_HARP_STRING_H
+#define HOOKE_CORE_HARP_STRING_H
+
+#include "core/chain.h"
+#include "core/exciter.h"
+#include "core/patch.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** What touches the string. */
+typedef enum {
+  DAMPER_OFF,    /**< Nothing: it rings with its own decay */
+  DAMPER_ON,     /**< The damper: it dies with the patch's release */
+  DAMPER_CHOKING /**< A hand: it is gone in a moment */
+} Damper;
+
+/** Zero is a string that is asleep and has no memory. */
+typedef struct {
+  Chain chain;
+  ChainCell* cells;  /**< Memory for `capacity` masses, the caller's */
+  uint32_t capacity; /**< Most masses it can have */
+  uint32_t key;      /**< MIDI note number */
+  double rate_hz;    /**< Steps per second [Hz] */
+  double f0_hz;      /**< Pitch it has or is gliding to [Hz] */
+  double a1;         /**< (ω0 h)² of its fundamental */
+  double headroom;   /**< Of its coefficients, see tuning_headroom() */
+  double loudest;    /**< Largest displacement seen since it was last plucked */
+  bool is_awake;     /**< Whether it moves */
+  Damper damper;
+} HarpString;
+
+/** The pitch of a key [Hz], with a bend in semitones. */
+double harp_string_pitch_hz(const Patch* patch, uint32_t key, double bend_semitones);
+
+/**
+   The most masses that a key's string can have at a rate, whatever the patch, down to `lowest_hz`
+   for A4, bent or not; at most CHAIN_MAX_MASSES, 0 if it can never sound.
+*/
+uint32_t harp_string_capacity(double rate_hz, uint32_t key, double lowest_hz);
+
+/** Lay a string at rest over `cells`, chain_cells(capacity) of them, aligned to CHAIN_ALIGNMENT. */
+void harp_string_init(
+    HarpString* string, double rate_hz, uint32_t key, ChainCell* cells, uint32_t capacity);
+
+/** Silence a string and set all its masses to exact zeros. */
+void harp_string_sleep(HarpString* string);
+
+/**
+   Pluck a string.  From rest it is strung anew, with the largest stable number of masses up to the
+   patch's; while it rings the pluck adds to its motion, its damper lifts, and the coefficients take
+   `n_glide` frames.  A string whose pitch is at or above Nyquist stays silent.
+*/
+void harp_string_pluck(
+    HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide);
+
+/**
+   Bring a ringing string to the patch, bend and damper in `n_glide` frames, its motion kept.  Where
+   that would pass its limit stiffness and loss give way (tuning_fit()); a pitch that cannot be had
+   at all chokes it.
+*/
+void harp_string_retune(
+    HarpString* string, const Patch* patch, double bend_semitones, Damper damper, uint32_t n_glide);
+
+/** Put the string to sleep if it has died away to −120 dB of its loudest; to be called now and
+ * then. */
+void harp_string_doze(HarpString* string);
+
+#endif

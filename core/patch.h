@@ -1,0 +1,23 @@
+/** What the player sets: the whole contract between the panel and the sound. */
+#ifndef HOOKE_CORE_PATCH_H
+#define HOOKE_CORE_PATCH_H
+
+#include <stdint.h>
+
+/** Every value must be in its range and a number: who fills a patch in clamps it. */
+typedef struct {
+  double level;         /**< Gain, ≥ 0 */
+  double damping_per_s; /**< 1/τ of the fundamental at A4 [1/s], > 0 */
+  double tracking;      /**< Damping of a key is damping · 2^(tracking (note − 69)/12) */
+  double loss; /**< Share of the fundamental's damping that sits between the masses, 0 to 1 */
+  double inharmonicity; /**< B, ≥ 0; 0: perfectly flexible */
+  double pickup;        /**< Where strings are read, fraction of the length, 0 to 1 */
+  double spread;    /**< Between the left and the right pickup, fraction of the length, 0 to 0.5 */
+  double pluck;     /**< Where strings are plucked, fraction of the length, 0 to 1 */
+  double hardness;  /**< Of what plucks, 0 to 1 */
+  double release_s; /**< τ once the key is up [s], > 0; a damper never makes a string ring longer */
+  double tuning_hz;    /**< A4 [Hz], > 0 */
+  uint32_t max_masses; /**< Most masses of a string, ≥ 1 */
+} Patch;
+
+#endif

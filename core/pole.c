@@ -1,0 +1,84 @@
+#include "core/pole.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* b² − 4c of the characteristic polynomial (23), negative for a conjugate pair. */
+static double discriminant(Pole pole) {
+  return pole.a * pole.a + (2.0 * pole.g - 4.0) * pole.a + pole.g * pole.g;
+}
+
+Pole pole_from_analog(double rate_hz, double omega0, double gamma) {
+  const double warp = omega0 / rate_hz;
+  return (Pole){.a = warp * warp, .g = gamma / rate_hz};
+}
+
+Status pole_solve(double rate_hz, Tone tone, Pole* pole) {
+  const bool is_rate = rate_hz > 0.0 && isfinite(rate_hz);
+  if (!is_rate || !(tone.f0_hz > 0.0) || !(tone.f0_hz < 0.5 * rate_hz) || !(tone.tau_s > 0.0)) {
+    return STATUS_BAD_ARGUMENT;
+  }
+  const double decay = 1.0 / (tone.tau_s * rate_hz);
+  const double radius = exp(-decay);
+  const double half = sin(PI * tone.f0_hz / rate_hz);
+  pole->g = -expm1(-2.0 * decay);
+  /* 2 − g − 2 r cos θ = (1 − r)² + 4 r sin²(θ/2), without the cancellation at low frequencies. */
+  pole->a = expm1(-decay) * expm1(-decay) + 4.0 * radius * half * half;
+  return STATUS_OK;
+}
+
+double pole_angle(Pole pole) {
+  const double twice_real = 2.0 - pole.a - pole.g;
+  const double d = discriminant(pole);
+  if (d < 0.0) {
+    return atan2(sqrt(-d), twice_real);
+  }
+  return twice_real < 0.0 ? PI : 0.0;
+}
+
+double pole_radius(Pole pole) {
+  const double d = discriminant(pole);
+  if (d < 0.0) {
+    return sqrt(1.0 - pole.g);
+  }
+  return 0.5 * (fabs(2.0 - pole.a - pole.g) + sqrt(d));
+}
+
+Tone pole_tone(double rate_hz, Pole pole) {
+  const double log_radius = pole_is_complex(pole) ? 0.5 * log1p(-pole.g) : log(pole_radius(pole));
+  return (Tone){
+      .f0_hz = pole_angle(pole) * rate_hz / (2.0 * PI),
+      .tau_s = log_radius == 0.0 ? INFINITY : -1.0 / (log_radius * rate_hz),
+  };
+}
+
+bool pole_is_complex(Pole pole) {
+  return discriminant(pole) < 0.0;
+}
+
+bool pole_is_stable(Pole pole) {
+  return pole.a >= 0.0 && pole.g >= 0.0 && pole.g < 2.0 && pole.a + 2.0 * pole.g <= 4.0;
+}
+
+PoleRegion pole_region(Pole pole) {
+  if (!pole_is_stable(pole)) {
+    return POLE_UNSTABLE;
+  }
+  if (pole_is_complex(pole)) {
+    return POLE_COMPLEX;
+  }
+  return 2.0 - pole.a - pole.g < 0.0 ? POLE_REAL_AT_PI : POLE_REAL_AT_ZERO;
+}
+
+const char* pole_region_text(PoleRegion region) {
+#define POLE_REGION_TEXT(name, text) text,
+  static const char* const texts[] = {POLE_REGION_LIST(POLE_REGION_TEXT)};
+#undef POLE_REGION_TEXT
+  return (unsigned)region < (unsigned)POLE_REGION_COUNT ? texts[region] : "unknown region";
+}
+
+double pole_largest_step_s(double omega0, double gamma) {
+  /* The root in the form that does not cancel for heavy damping: 4 / (γ + √(γ² + 4 ω0²)). */
+  return 4.0 / (gamma + sqrt(gamma * gamma + 4.0 * omega0 * omega0));
+}

@@ -1,0 +1,15 @@
+#include "core/ramp.h"
+
+void ramp_init(Ramp* ramp, float value) {
+  *ramp = (Ramp){.value = value, .goal = value};
+}
+
+void ramp_to(Ramp* ramp, float goal, uint32_t n_frames) {
+  if (n_frames == 0) {
+    ramp_init(ramp, goal);
+    return;
+  }
+  ramp->goal = goal;
+  ramp->change = (goal - ramp->value) / (float)n_frames;
+  ramp->n_left = n_frames;
+}

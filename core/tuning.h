@@ -1,0 +1,93 @@
+/**
+   The uniform string, from the sound that is wanted to its coefficients, in closed form.
+
+   N masses hang in a row between two fixed, hinged ends.  With L = tridiag(−1, 2, −1) and the state
+   scaled by the time step, u = h v, one step of symplectic Euler is
+
+       u ← u − (k1 L + k2 L²) x − (z0 I + z1 L) u ;   x ← x + u.
+
+   The sine basis makes all of it diagonal.  With λ_k = 4 sin²(kπ / (2(N + 1))), mode k is one mass
+   (core/pole.h) with
+
+       a_k = k1 λ_k + k2 λ_k²,   g_k = z0 + z1 λ_k,
+
+   so Algorithm 1 of [MQ09] has a closed form, and the string is stable iff a_k > 0 and a_k + 2 g_k
+   ≤ 4 in every mode.
+
+   Thread: any.  All of this room is real-time safe, allocates nothing, and takes a bounded time.
+*/
+#ifndef HOOKE_CORE_TUNING_H
+#define HOOKE_CORE_TUNING_H
+
+#include "core/pole.h"
+#include "core/status.h"
+
+#include <stdint.h>
+
+/** The part of the stability limit that is left unused, so that rounding to float cannot cross it.
+ */
+#define TUNING_MARGIN 1e-4
+
+/** The string that is wanted. */
+typedef struct {
+  double rate_hz; /**< Steps per second [Hz], > 0 */
+  Tone tone;      /**< Of the fundamental: 0 < F < rate/2 [Hz], τ > 0 [s] */
+  double loss;    /**< Share s of the fundamental's damping that sits between masses, 0 to 1 */
+  double inharmonicity; /**< B ≥ 0 of f_k ≈ k f1 √(1 + B k²); 0 is a perfectly flexible string */
+} TuningTarget;
+
+/** The string that has it; all dimensionless. */
+typedef struct {
+  double k1; /**< Springs between neighbours, (h² k/m) */
+  double k2; /**< Bending stiffness */
+  double z0; /**< Dampers to ground, (h Z/m) */
+  double z1; /**< Dampers between neighbours */
+} StringCoefs;
+
+/** λ_k = 4 sin²(kπ / (2(N + 1))), the k-th eigenvalue of L; 1 ≤ k ≤ n_masses. */
+double tuning_lambda(uint32_t n_masses, uint32_t k);
+
+/** Mode `k` (1 ≤ k ≤ n_masses) of a string, as one mass. */
+Pole tuning_mode(StringCoefs coefs, uint32_t n_masses, uint32_t k);
+
+/**
+   Solve for the string of `n_masses` whose fundamental is exactly `target->tone`:
+
+       g1, a1 by pole_solve();  z0 = g1 (1 − s),  z1 = g1 s / λ1,
+       k1 = a1 / (λ1 (1 + b λ1)),  k2 = b k1,  b = B ((N + 1)/π)².
+
+   It may be unstable in its upper modes: see tuning_headroom().
+
+   @param[out] coefs  Untouched on failure
+   @return STATUS_OK or STATUS_BAD_ARGUMENT (n_masses of 0, anything out of range or not a number)
+*/
+Status tuning_solve(const TuningTarget* target, uint32_t n_masses, StringCoefs* coefs);
+
+/**
+   The smallest of 1 − (a_k + 2 g_k)/4 over the modes; −INFINITY where bending is so negative that a
+   mode is not pulled back.  The string is stable iff this is not negative.  Where bending is
+   negative it may come out lower than the truth, never higher.
+*/
+double tuning_headroom(StringCoefs coefs, uint32_t n_masses);
+
+/**
+   The largest number of masses, at most `limit`, whose string for `target` keeps TUNING_MARGIN of
+   headroom.
+
+   @return 0 if not even one mass does (F at or above Nyquist, or within 0.7 % below it) or the
+   target is out of range
+*/
+uint32_t tuning_max_masses(const TuningTarget* target, uint32_t limit);
+
+/**
+   Solve as tuning_solve(), but for a string that must keep its `n_masses`: pitch and decay stay
+   exact, and where the string would pass its limit, first stiffness gives way (through 0 down to a
+   slightly negative bending, which flattens the upper partials), then loss, then stiffness again.
+
+   @param[out] coefs  Untouched on failure
+   @return STATUS_OK; STATUS_BAD_ARGUMENT as tuning_solve(); STATUS_UNSTABLE if nothing that may
+   give way suffices, which takes a pitch about an octave above the one that n_masses can hold
+*/
+Status tuning_fit(const TuningTarget* target, uint32_t n_masses, StringCoefs* coefs);
+
+#endif
