@@ -61,16 +61,14 @@ CONFIGURE_OPTIONS = ['prefix', 'lv2dir', 'user', 'debug', 'sanitize', 'werror']
 
 def options(opt):
     opt.load('compiler_c')
-    group = opt.add_option_group('Hooke: options of configure, or of the first command')
-    group.add_option('--lv2dir', help='where LV2 bundles are installed [default: <prefix>/lib/lv2]')
-    group.add_option('--user', action='store_true', help='install for this user: ~/.lv2 and the prefix ~/.local')
-    group.add_option('--debug', action='store_true', help='build for a debugger')
-    group.add_option('--sanitize', action='store_true', help='build with ASan and UBSan, stopping at the first error')
-    group.add_option('--werror', action='store_true', help='let a warning fail the build')
-    group = opt.add_option_group('Hooke: options of test')
-    group.add_option('--long', action='store_true', help='run the long versions of the tests as well')
-    group.add_option('--only', default='', metavar='WORD', help='run the test programs with WORD in their name')
-    group.add_option('--timeout', type=int, default=600, metavar='S', help='allow each program S seconds [600]')
+    opt.add_option('--lv2dir', help='configure: where LV2 bundles are installed [<prefix>/lib/lv2]')
+    opt.add_option('--user', action='store_true', help='configure: install for this user, in ~/.lv2 and ~/.local')
+    opt.add_option('--debug', action='store_true', help='configure: build for a debugger')
+    opt.add_option('--sanitize', action='store_true', help='configure: ASan and UBSan, stopping at the first error')
+    opt.add_option('--werror', action='store_true', help='configure: let a warning fail the build')
+    opt.add_option('--long', action='store_true', help='test: run the long versions of the tests as well')
+    opt.add_option('--only', default='', metavar='WORD', help='test: run the programs with WORD in their name')
+    opt.add_option('--timeout', type=int, default=600, metavar='S', help='test: allow each program S seconds [600]')
 
 
 def configure(conf):
@@ -303,13 +301,20 @@ def run_tests(bld):
     alone = [program for program in programs if program[0].startswith('test_speed')]
     side_by_side = [program for program in programs if program not in alone]
 
+    running = set()
+
     def run(program):
-        result = run_test(bld, *program)
+        result = run_test(bld, running, *program)
         report(result)
         return result
 
     with ThreadPoolExecutor(bld.jobs) as pool:
-        results = list(pool.map(run, side_by_side))
+        try:
+            results = list(pool.map(run, side_by_side))
+        except KeyboardInterrupt:
+            for process in list(running):
+                kill(process)
+            raise
     results += [run(program) for program in alone]
     close(bld, results)
 
@@ -322,7 +327,7 @@ def test_programs(bld):
 
 
 # The output goes to a file rather than a pipe: a pipe held open by a stray child would never end.
-def run_test(bld, name, path):
+def run_test(bld, running, name, path):
     log = bld.bldnode.make_node('tests/%s.log' % name)
     log.parent.mkdir()
     start = time.monotonic()
@@ -330,16 +335,23 @@ def run_test(bld, name, path):
         process = subprocess.Popen([path], cwd=bld.bldnode.abspath(), env=run_environment(bld),
                                    stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
                                    start_new_session=True)
+        running.add(process)
         try:
             code = process.wait(bld.options.timeout)
         except subprocess.TimeoutExpired:
             code = None
         finally:
+            running.remove(process)
             if process.returncode is None:
-                os.killpg(process.pid, signal.SIGKILL)
+                kill(process)
                 process.wait()
     with open(log.abspath(), encoding='utf-8', errors='replace') as output:
         return judge(name, code, output.read(), time.monotonic() - start)
+
+
+# With all that it has started.
+def kill(process):
+    os.killpg(process.pid, signal.SIGKILL)
 
 
 # Count the single tests. However a program ended, it is never taken for a success that it was not.
