@@ -3,6 +3,7 @@
 Sources are found by where they lie, so that a new one needs no line here:
 
     core/*.c           a static library, in the plugin and in everything else
+    core/*_avx2.c      the part of it for processors with AVX2 and FMA, which is chosen when it runs
     plugin/*.c         the plugin, hooke.lv2/hooke.so
     ttl/, presets/     the plugin's descriptions and presets, beside it
     tools/main.c       the program `hooke`; the other tools/*.c are a library which the tests share
@@ -41,6 +42,9 @@ WARNINGS = '''
 
 # Not -ffast-math, which would delete the NaN checks, and no contraction, so that every compiler gives the same bits.
 MATHS = ['-fno-math-errno', '-fno-trapping-math', '-ffp-contract=off']
+
+# For the files that are run only where the processor has them, and whose loops are worth contracting.
+AVX2 = ['-mavx2', '-mfma', '-ffp-contract=fast']
 
 SANITIZERS = ['-fsanitize=address,undefined', '-fno-sanitize-recover=all', '-fno-omit-frame-pointer']
 
@@ -164,7 +168,14 @@ def refuse_late_options(bld):
 
 def build_core(bld):
     in_lapack_rooms = ['core/%s.c' % room for room in LAPACK_ROOMS]
-    library(bld, 'hooke_core', bld.path.ant_glob('core/*.c', excl=in_lapack_rooms), use='M')
+    for_avx2 = 'core/*_avx2.c'
+    if bld.env.DEST_CPU == 'x86_64':
+        bld.objects(source=bld.path.ant_glob(for_avx2), target='hooke_avx2', cflags=['-fPIC'] + AVX2,
+                    defines=['HOOKE_AVX2'])
+        library(bld, 'hooke_core', bld.path.ant_glob('core/*.c', excl=in_lapack_rooms + [for_avx2]),
+                use='M hooke_avx2', defines=['HOOKE_AVX2'])
+    else:
+        library(bld, 'hooke_core', bld.path.ant_glob('core/*.c', excl=in_lapack_rooms + [for_avx2]), use='M')
     library(bld, 'hooke_analysis', bld.path.ant_glob(in_lapack_rooms), use='hooke_core LAPACK')
 
 

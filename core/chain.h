@@ -8,42 +8,22 @@
    which keeps position x and scaled velocity u = h v, never two positions: in floats that is worth
    40 dB.
 
-   Layout.  The string is cut into CHAIN_LANES segments of S cells each, one a lane: mass i is lane
-   i div S of cell i mod S.  So neighbours are in the cells beside, and lanes are shifted only at
-   the two seams of a step.  Where the masses do not fill the last lane, the one after the last is
-   held at rest by a mask, and is the wall.
+   Layout.  The string is cut into as many segments as the kernel has lanes, S cells each, one a
+   lane: mass i is lane i div S of cell i mod S, and a cell is a vector of x and a vector of u.  So
+   neighbours are in the cells beside, and lanes are shifted only at the two seams of a step.  Where
+   the masses do not fill the last lane, the one after the last is held at rest by a mask, and is
+   the wall.
 
    Thread: one at a time; everything here is real-time safe.
 */
 #ifndef HOOKE_CORE_CHAIN_H
 #define HOOKE_CORE_CHAIN_H
 
+#include "core/chain_kernel.h"
 #include "core/tuning.h"
 
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
-
-enum {
-  CHAIN_LANES = 8,
-  CHAIN_MAX_MASSES = 1024,
-  CHAIN_MAX_CELLS = CHAIN_MAX_MASSES / CHAIN_LANES,
-  CHAIN_MAX_TAPS = 4,
-  CHAIN_ALIGNMENT = 64, /**< Of the cells [bytes] */
-};
-
-typedef float ChainVector __attribute__((vector_size(CHAIN_LANES * sizeof(float))));
-
-/** CHAIN_LANES masses: where they are, and how far they move in a step. */
-typedef struct {
-  ChainVector x;
-  ChainVector u;
-} ChainCell;
-
-/** StringCoefs in the precision of the loop. */
-typedef struct {
-  float k1, k2, z0, z1;
-} ChainCoefs;
 
 /** A place where the chain is read: weight[0] x[mass[0]] + weight[1] x[mass[1]]; masses count from
  * 0. */
@@ -54,26 +34,28 @@ typedef struct {
 
 /** A string; zero is one without masses. */
 typedef struct {
-  ChainCell* cells;   /**< In the caller's memory, aligned to CHAIN_ALIGNMENT */
+  const ChainKernel* kernel;
+  float* cells;       /**< In the caller's memory, aligned to CHAIN_ALIGNMENT */
   uint32_t n_masses;  /**< N */
-  uint32_t n_cells;   /**< S = ⌈N / CHAIN_LANES⌉ */
+  uint32_t n_cells;   /**< S = ⌈N / lanes⌉ */
   uint32_t n_gliding; /**< Steps until `goal` is reached; 0 when the coefficients stand still */
   ChainCoefs now;     /**< What the next step uses, while still */
   ChainCoefs change;  /**< What a step adds to it, while gliding */
   ChainCoefs goal;    /**< Where a glide ends */
 } Chain;
 
-/** Cells that hold `n_masses`. */
-uint32_t chain_cells(uint32_t n_masses);
+/** Floats that hold `n_masses` with any kernel; a multiple of CHAIN_ALIGNMENT in bytes. */
+size_t chain_floats(uint32_t n_masses);
 
 /**
    Make a chain of `n_masses` at rest.
 
-   @param cells     chain_cells(n_masses) of them, aligned to CHAIN_ALIGNMENT; kept by the chain,
+   @param kernel    From chain_kernel()
+   @param cells     chain_floats(n_masses) of them, aligned to CHAIN_ALIGNMENT; kept by the chain,
    not owned
    @param n_masses  1 to CHAIN_MAX_MASSES
 */
-void chain_init(Chain* chain, ChainCell* cells, uint32_t n_masses);
+void chain_init(Chain* chain, const ChainKernel* kernel, float* cells, uint32_t n_masses);
 
 /** Bring every mass to rest. */
 void chain_rest(Chain* chain);
@@ -106,7 +88,7 @@ void chain_push(Chain* chain, uint32_t i, float u);
 
    @param a1  Its a, > 0; INFINITY: displacement alone
 */
-float chain_amplitude(const Chain* chain, double a1);
+double chain_amplitude(const Chain* chain, double a1);
 
 /**
    Step the chain `n_frames` times, and after each step add what each tap reads to its output.

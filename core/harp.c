@@ -140,17 +140,17 @@ static void retune_all(Harp* harp, uint32_t n_glide) {
 }
 
 /* Lay out the memory of all strings, or with no memory count the cells that it takes. */
-static size_t lay_out(Harp* harp, ChainCell* cells) {
-  size_t n_cells = 0;
+static size_t lay_out(Harp* harp, float* cells) {
+  size_t n_floats = 0;
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
     const double lowest_hz = HARP_LOWEST_TUNING_HZ * exp2(HARP_LOWEST_BEND / 12.0);
     const uint32_t capacity = harp_string_capacity(harp->rate_hz, key, lowest_hz);
     if (cells) {
-      harp_string_init(&harp->strings[key], harp->rate_hz, key, cells + n_cells, capacity);
+      harp_string_init(&harp->strings[key], harp->rate_hz, key, cells + n_floats, capacity);
     }
-    n_cells += chain_cells(capacity);
+    n_floats += chain_floats(capacity);
   }
-  return n_cells;
+  return n_floats;
 }
 
 Harp* harp_new(double rate_hz) {
@@ -160,7 +160,7 @@ Harp* harp_new(double rate_hz) {
   }
   harp->rate_hz = rate_hz;
   harp->n_gesture = (uint32_t)fmax(1.0, round(GESTURE_S * rate_hz));
-  const size_t size = (lay_out(harp, NULL) + 1) * sizeof(ChainCell);
+  const size_t size = (lay_out(harp, NULL) + chain_floats(1)) * sizeof(float);
   harp->cells = aligned_alloc(CHAIN_ALIGNMENT, size);
   if (!harp->cells) {
     harp_free(harp);

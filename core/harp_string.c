@@ -49,7 +49,7 @@ static bool restring(HarpString* string, const Patch* patch, double f0_hz) {
   if (n_masses == 0 || tuning_solve(&target, n_masses, &coefs)) {
     return false;
   }
-  chain_init(&string->chain, string->cells, n_masses);
+  chain_init(&string->chain, string->kernel, string->cells, n_masses);
   chain_set(&string->chain, coefs);
   note_design(string, f0_hz, coefs);
   string->is_awake = true;
@@ -65,14 +65,18 @@ double harp_string_pitch_hz(const Patch* patch, uint32_t key, double bend_semito
 uint32_t harp_string_capacity(double rate_hz, uint32_t key, double lowest_hz) {
   const TuningTarget lightest = {
       .rate_hz = rate_hz,
-      .tone = {.f0_hz = lowest_hz * exp2(((double)key - 69.0) / 12.0), .tau_s = INFINITY},
+      .tone = {.f0_hz = lowest_hz * exp2(((double)key - 69.0) / 12.0), .tau_s = HUGE_VAL},
   };
   return tuning_max_masses(&lightest, CHAIN_MAX_MASSES);
 }
 
 void harp_string_init(
-    HarpString* string, double rate_hz, uint32_t key, ChainCell* cells, uint32_t capacity) {
-  *string = (HarpString){.cells = cells, .capacity = capacity, .key = key, .rate_hz = rate_hz};
+    HarpString* string, double rate_hz, uint32_t key, float* cells, uint32_t capacity) {
+  *string = (HarpString){.kernel = chain_kernel(0),
+                         .cells = cells,
+                         .capacity = capacity,
+                         .key = key,
+                         .rate_hz = rate_hz};
 }
 
 void harp_string_sleep(HarpString* string) {
@@ -119,7 +123,7 @@ void harp_string_retune(HarpString* string,
 }
 
 void harp_string_doze(HarpString* string) {
-  string->loudest = fmax(string->loudest, chain_amplitude(&string->chain, INFINITY));
+  string->loudest = fmax(string->loudest, chain_amplitude(&string->chain, HUGE_VAL));
   if (chain_amplitude(&string->chain, string->a1) < SILENCE * string->loudest) {
     harp_string_sleep(string);
   }

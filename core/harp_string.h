@@ -23,15 +23,16 @@ typedef enum {
 /** Zero is a string that is asleep and has no memory. */
 typedef struct {
   Chain chain;
-  ChainCell* cells;  /**< Memory for `capacity` masses, the caller's */
-  uint32_t capacity; /**< Most masses it can have */
-  uint32_t key;      /**< MIDI note number */
-  double rate_hz;    /**< Steps per second [Hz] */
-  double f0_hz;      /**< Pitch it has or is gliding to [Hz] */
-  double a1;         /**< (ω0 h)² of its fundamental */
-  double headroom;   /**< Of its coefficients, see tuning_headroom() */
-  double loudest;    /**< Largest displacement seen since it was last plucked */
-  bool is_awake;     /**< Whether it moves */
+  const ChainKernel* kernel; /**< What steps it */
+  float* cells;              /**< Memory for `capacity` masses, the caller's */
+  uint32_t capacity;         /**< Most masses it can have */
+  uint32_t key;              /**< MIDI note number */
+  double rate_hz;            /**< Steps per second [Hz] */
+  double f0_hz;              /**< Pitch it has or is gliding to [Hz] */
+  double a1;                 /**< (ω0 h)² of its fundamental */
+  double headroom;           /**< Of its coefficients, see tuning_headroom() */
+  double loudest;            /**< Largest displacement seen since it was last plucked */
+  bool is_awake;             /**< Whether it moves */
   Damper damper;
 } HarpString;
 
@@ -44,9 +45,10 @@ double harp_string_pitch_hz(const Patch* patch, uint32_t key, double bend_semito
 */
 uint32_t harp_string_capacity(double rate_hz, uint32_t key, double lowest_hz);
 
-/** Lay a string at rest over `cells`, chain_cells(capacity) of them, aligned to CHAIN_ALIGNMENT. */
+/** Lay a string at rest over `cells`, chain_floats(capacity) of them, aligned to CHAIN_ALIGNMENT.
+ */
 void harp_string_init(
-    HarpString* string, double rate_hz, uint32_t key, ChainCell* cells, uint32_t capacity);
+    HarpString* string, double rate_hz, uint32_t key, float* cells, uint32_t capacity);
 
 /** Silence a string and set all its masses to exact zeros. */
 void harp_string_sleep(HarpString* string);

@@ -49,7 +49,7 @@ Tone pole_tone(double rate_hz, Pole pole) {
   const double log_radius = pole_is_complex(pole) ? 0.5 * log1p(-pole.g) : log(pole_radius(pole));
   return (Tone){
       .f0_hz = pole_angle(pole) * rate_hz / (2.0 * PI),
-      .tau_s = log_radius == 0.0 ? INFINITY : -1.0 / (log_radius * rate_hz),
+      .tau_s = log_radius == 0.0 ? HUGE_VAL : -1.0 / (log_radius * rate_hz),
   };
 }
 

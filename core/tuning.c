@@ -76,7 +76,7 @@ static double headroom(StringCoefs coefs, double lambda_last) {
     }
   }
   /* a_k/λ_k is linear in λ and positive in the first mode: if the last pulls back, all do. */
-  return last.a > 0.0 ? 1.0 - 0.25 * load : -INFINITY;
+  return last.a > 0.0 ? 1.0 - 0.25 * load : -HUGE_VAL;
 }
 
 static bool design_is_safe(const Design* design) {
