@@ -15,7 +15,7 @@ bool host_fail(Host* host, const char* format, ...) {
   return false;
 }
 
-static bool load_world(Host* host, const char* lv2_path) {
+static bool make_world(Host* host, const char* lv2_path) {
   host->world = lilv_world_new();
   if (!host->world) {
     return host_fail(host, "out of memory");
@@ -25,22 +25,40 @@ static bool load_world(Host* host, const char* lv2_path) {
     lilv_world_set_option(host->world, LILV_OPTION_LV2_PATH, path);
     lilv_node_free(path);
   }
-  lilv_world_load_all(host->world);
   return true;
 }
 
-static bool find_plugin(Host* host, const char* plugin_uri, const char* lv2_path) {
-  LilvNode* const uri = lilv_new_uri(host->world, plugin_uri);
-  if (!uri) {
-    return host_fail(host, "plugin <%s>: not a URI", plugin_uri);
+/* lilv wants a bundle's URI to end in a slash. */
+static void load_bundle(Host* host, const char* bundle) {
+  char path[4096];
+  const int length = snprintf(path, sizeof(path), "%s/", bundle);
+  if (length > 0 && (size_t)length < sizeof(path)) {
+    LilvNode* const uri = lilv_new_file_uri(host->world, NULL, path);
+    lilv_world_load_bundle(host->world, uri);
+    lilv_node_free(uri);
   }
-  const LilvPlugins* const plugins = lilv_world_get_all_plugins(host->world);
-  host->plugin = lilv_plugins_get_by_uri(plugins, uri);
+}
+
+static bool find_plugin(Host* host, const char* plugin_uri, const HostConfig* config) {
+  const char* const colon = strchr(plugin_uri, ':');
+  LilvNode* const uri = colon ? lilv_new_uri(host->world, plugin_uri) : NULL;
+  if (!uri) {
+    return host_fail(host, "plugin '%s': found no URI, expected one", plugin_uri);
+  }
+  if (config->bundle) {
+    load_bundle(host, config->bundle);
+    host->plugin = lilv_plugins_get_by_uri(lilv_world_get_all_plugins(host->world), uri);
+  }
+  if (!host->plugin) {
+    lilv_world_load_all(host->world);
+    host->plugin = lilv_plugins_get_by_uri(lilv_world_get_all_plugins(host->world), uri);
+  }
   lilv_node_free(uri);
   if (!host->plugin) {
     const char* const env = getenv("LV2_PATH");
-    const char* const path = lv2_path ? lv2_path : env ? env : "LV2's usual directories";
-    return host_fail(host, "plugin <%s>: not found in %s", plugin_uri, path);
+    const char* const path = config->lv2_path ? config->lv2_path : env;
+    return host_fail(host, "plugin <%s>: not found in %s", plugin_uri,
+                     path ? path : "LV2's usual directories");
   }
   return true;
 }
@@ -81,7 +99,7 @@ static bool host_init(Host* host, const char* plugin_uri, const HostConfig* conf
   }
   host->sequence_type = host_map(host, LV2_ATOM__Sequence);
   host->chunk_type = host_map(host, LV2_ATOM__Chunk);
-  if (!load_world(host, config->lv2_path) || !find_plugin(host, plugin_uri, config->lv2_path) ||
+  if (!make_world(host, config->lv2_path) || !find_plugin(host, plugin_uri, config) ||
       !check_required(host)) {
     return false;
   }
