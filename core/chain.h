@@ -1,12 +1,14 @@
 /**
    One string as a chain of masses, in single precision: the loop that makes the sound.
 
-   The step is that of core/tuning.h,
+   The step is that of core/tuning.h, link by link.  With Δ the difference between a mass and the
+   one before it,
 
-       y = k1 x + k2 L x + z1 u ;   u += (y_{i−1} − y_i) + (y_{i+1} − y_i) − z0 u ;   x += u,
+       link = k1 Δx + z1 Δu + k2 Δ(L x) ;   u_i += link_{i+1} − link_i − z0 u_i ;   x_i += u_i.
 
-   which keeps position x and scaled velocity u = h v, never two positions: in floats that is worth
-   40 dB.
+   It keeps position x and scaled velocity u = h v, never two positions: in floats that is worth 40
+   dB.  A string that is so weakly damped that rounding would be heard in its decay is stepped with
+   compensated sums (CHAIN_EXACT).
 
    Layout.  The string is cut into as many segments as the kernel has lanes, S cells each, one a
    lane: mass i is lane i div S of cell i mod S, and a cell is a vector of x and a vector of u.  So
@@ -35,10 +37,12 @@ typedef struct {
 /** A string; zero is one without masses. */
 typedef struct {
   const ChainKernel* kernel;
-  float* cells;       /**< In the caller's memory, aligned to CHAIN_ALIGNMENT */
+  float* cells; /**< In the caller's memory, aligned to CHAIN_ALIGNMENT; the residues are behind
+                   them */
   uint32_t n_masses;  /**< N */
   uint32_t n_cells;   /**< S = ⌈N / lanes⌉ */
   uint32_t n_gliding; /**< Steps until `goal` is reached; 0 when the coefficients stand still */
+  bool is_exact;      /**< Whether sums are compensated, while the coefficients stand still */
   ChainCoefs now;     /**< What the next step uses, while still */
   ChainCoefs change;  /**< What a step adds to it, while gliding */
   ChainCoefs goal;    /**< Where a glide ends */

@@ -31,6 +31,7 @@ typedef struct {
 /** What a loop works on; see Chain. */
 typedef struct {
   float* cells;
+  float* residues; /**< Of the cells, laid out as they are */
   uint32_t n_masses;
   uint32_t n_cells;
   uint32_t n_frames;
@@ -42,31 +43,46 @@ typedef struct {
 
 typedef void (*ChainLoop)(ChainWork work);
 
+/** How the coefficients and the rounding are handled. */
+typedef enum {
+  CHAIN_STILL,  /**< The coefficients stand still */
+  CHAIN_MOVING, /**< They move */
+  CHAIN_EXACT, /**< They stand still, and what rounding takes from x and u is given back in the next
+                  step */
+  CHAIN_MODES
+} ChainMode;
+
 /** One set of loops. */
 typedef struct {
   const char* name;
   uint32_t n_lanes; /**< Segments that a string is cut into */
-  ChainLoop loops[2][2][CHAIN_MAX_TAPS +
-                        1]; /**< [is bending][is moving][taps]; NULL where taps are not 1, 2, 4 */
+  /** [is bending][mode][taps]; NULL where taps are not 1, 2 or 4 */
+  ChainLoop loops[2][CHAIN_MODES][CHAIN_MAX_TAPS + 1];
 } ChainKernel;
 
 /**
-   X(name, is_bending, is_moving, n_taps): every scene that a string can be in.  A loop is made for
-   each, and does what its scene needs alone.
+   X(name, is_bending, mode, n_taps): every scene that a string can be in.  A loop is made for each,
+   and does what its scene needs alone.
 */
 #define CHAIN_SCENES(X)                                                                            \
-  X(flexible_still_1, 0, 0, 1)                                                                     \
-  X(flexible_still_2, 0, 0, 2)                                                                     \
-  X(flexible_still_4, 0, 0, 4)                                                                     \
-  X(flexible_moving_1, 0, 1, 1)                                                                    \
-  X(flexible_moving_2, 0, 1, 2)                                                                    \
-  X(flexible_moving_4, 0, 1, 4)                                                                    \
-  X(bending_still_1, 1, 0, 1)                                                                      \
-  X(bending_still_2, 1, 0, 2)                                                                      \
-  X(bending_still_4, 1, 0, 4)                                                                      \
-  X(bending_moving_1, 1, 1, 1)                                                                     \
-  X(bending_moving_2, 1, 1, 2)                                                                     \
-  X(bending_moving_4, 1, 1, 4)
+  X(flexible_still_1, 0, CHAIN_STILL, 1)                                                           \
+  X(flexible_still_2, 0, CHAIN_STILL, 2)                                                           \
+  X(flexible_still_4, 0, CHAIN_STILL, 4)                                                           \
+  X(flexible_moving_1, 0, CHAIN_MOVING, 1)                                                         \
+  X(flexible_moving_2, 0, CHAIN_MOVING, 2)                                                         \
+  X(flexible_moving_4, 0, CHAIN_MOVING, 4)                                                         \
+  X(flexible_exact_1, 0, CHAIN_EXACT, 1)                                                           \
+  X(flexible_exact_2, 0, CHAIN_EXACT, 2)                                                           \
+  X(flexible_exact_4, 0, CHAIN_EXACT, 4)                                                           \
+  X(bending_still_1, 1, CHAIN_STILL, 1)                                                            \
+  X(bending_still_2, 1, CHAIN_STILL, 2)                                                            \
+  X(bending_still_4, 1, CHAIN_STILL, 4)                                                            \
+  X(bending_moving_1, 1, CHAIN_MOVING, 1)                                                          \
+  X(bending_moving_2, 1, CHAIN_MOVING, 2)                                                          \
+  X(bending_moving_4, 1, CHAIN_MOVING, 4)                                                          \
+  X(bending_exact_1, 1, CHAIN_EXACT, 1)                                                            \
+  X(bending_exact_2, 1, CHAIN_EXACT, 2)                                                            \
+  X(bending_exact_4, 1, CHAIN_EXACT, 4)
 
 /** Four lanes: what every processor with vectors has. */
 extern const ChainKernel chain_kernel_four;

@@ -37,9 +37,11 @@
   X(RELEASE, release, 16, 0.005f, 10.0f, 0.1f)                                                     \
   X(TUNING, tuning, 17, 400.0f, 480.0f, 440.0f)
 
-#define PORT_ENUM(name, symbol, index, ...) PORT_##name = index,
-enum { STREAM_PORTS(PORT_ENUM) CONTROL_PORTS(PORT_ENUM) N_PORTS = 21 };
-#undef PORT_ENUM
+#define STREAM_ENUM(name, symbol, index) PORT_##name = (index),
+#define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value) PORT_##name = (index),
+enum { STREAM_PORTS(STREAM_ENUM) CONTROL_PORTS(CONTROL_ENUM) N_PORTS = 21 };
+#undef STREAM_ENUM
+#undef CONTROL_ENUM
 
 /** Values of the control inputs by port index; those of other ports are unused. */
 typedef struct {

@@ -177,12 +177,13 @@ static void stepped_mass_is_a_power_of_its_pole(void** state) {
     double u = random_between(&random, -1.0, 1.0) * sqrt(pole.a);
     const double complex z = power(pole, 1);
     const double complex c = amplitude_of(z, x, x + (1.0 - pole.g) * u - pole.a * x);
-    for (int n = 0; n < 500; ++n) {
+    for (int n = 0; n < 200; ++n) {
       worst = fmax(worst, fabs(x - creal(c * power(pole, n))) / cabs(c));
       u -= pole.a * x + pole.g * u;
       x += u;
     }
   }
+  /* 200 roundings, each felt as 1/sin θ, which is under 16 from 500 Hz to 23.5 kHz. */
   assert_within("samples, relative to the amplitude", worst, 1e-12);
 }
 
