@@ -84,7 +84,6 @@ static bool clean_events(MidiWalk* walk, Bytes* out) {
 static bool clean_track(MidiWalk* walk, Bytes* out) {
   static const uint8_t head[CHUNK_SIZE] = {'M', 'T', 'r', 'k'};
   const size_t start = out->size + sizeof(head);
-  walk->status = 0;
   walk->tick = 0;
   if (!bytes_append(out, head, sizeof(head))) {
     return out_of_memory(walk);
