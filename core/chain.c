@@ -4,24 +4,76 @@
 #include <math.h>
 #include <string.h>
 
-/*
-  Damping g of the fundamental below which sums are compensated.  Rounding was measured to change
-  what a step takes from the amplitude, g/2, by 1e-10 at the most: 1 part in 10,000 of this.
-*/
-static const double EXACT_BELOW = 2e-6;
+/* Damping g of the fundamental below which a string is stepped in doubles: a time constant of
+ * 20,000 steps. */
+static const double WEAK_DAMPING = 1e-4;
 
-/* Where the position of a mass is among the floats of the cells; its velocity is one vector on. */
+/* Where a mass is among the numbers of the cells: its position, and one vector on its velocity. */
 static size_t offset_of(const Chain* chain, uint32_t i) {
-  const size_t n_lanes = chain->kernel->n_lanes;
+  const size_t n_lanes = chain->loops->n_lanes;
   return (i % chain->n_cells) * 2 * n_lanes + i / chain->n_cells;
 }
 
-static size_t n_floats(const Chain* chain) {
-  return (size_t)chain->n_cells * 2 * chain->kernel->n_lanes;
+static bool is_in_double(const Chain* chain) {
+  return chain->loops == chain->kernel->in_double;
 }
 
-static ChainCoefs narrow(StringCoefs coefs) {
-  return (ChainCoefs){(float)coefs.k1, (float)coefs.k2, (float)coefs.z0, (float)coefs.z1};
+static double number(const Chain* chain, size_t offset) {
+  return is_in_double(chain) ? ((const double*)chain->cells)[offset]
+                             : (double)((const float*)chain->cells)[offset];
+}
+
+static void set_number(Chain* chain, size_t offset, double value) {
+  if (is_in_double(chain)) {
+    ((double*)chain->cells)[offset] = value;
+  } else {
+    ((float*)chain->cells)[offset] = (float)value;
+  }
+}
+
+static double position(const Chain* chain, uint32_t i) {
+  return number(chain, offset_of(chain, i));
+}
+
+static double velocity(const Chain* chain, uint32_t i) {
+  return number(chain, offset_of(chain, i) + chain->loops->n_lanes);
+}
+
+static void place(Chain* chain, uint32_t i, double x, double u) {
+  set_number(chain, offset_of(chain, i), x);
+  set_number(chain, offset_of(chain, i) + chain->loops->n_lanes, u);
+}
+
+static size_t cells_size(uint32_t n_masses, size_t number_size) {
+  const size_t n_cells = ((size_t)n_masses + CHAIN_MAX_LANES - 1) / CHAIN_MAX_LANES;
+  return n_cells * 2 * CHAIN_MAX_LANES * number_size;
+}
+
+/* Lay the masses, at rest, where those of a precision are: doubles first, floats behind them. */
+static void lay(Chain* chain, const ChainLoops* loops) {
+  const bool is_behind = loops == chain->kernel->in_float;
+  const size_t offset = is_behind ? cells_size(chain->n_masses, sizeof(double)) : 0;
+  chain->loops = loops;
+  chain->cells = (char*)chain->memory + offset;
+  chain->n_cells = (chain->n_masses + loops->n_lanes - 1) / loops->n_lanes;
+  chain_rest(chain);
+}
+
+/* The coefficients have come to their goal: take the precision that they want, the motion with it.
+ */
+static void settle(Chain* chain) {
+  const double g1 = tuning_mode(chain->goal, chain->n_masses, 1).g;
+  const ChainLoops* const loops =
+      g1 < WEAK_DAMPING ? chain->kernel->in_double : chain->kernel->in_float;
+  chain->now = chain->goal;
+  chain->n_gliding = 0;
+  if (loops != chain->loops) {
+    const Chain before = *chain;
+    lay(chain, loops);
+    for (uint32_t i = 0; i < chain->n_masses; ++i) {
+      place(chain, i, position(&before, i), velocity(&before, i));
+    }
+  }
 }
 
 static ChainReader reader_of(const Chain* chain, ChainTap tap) {
@@ -34,48 +86,29 @@ static ChainReader reader_of(const Chain* chain, ChainTap tap) {
 /* The loop for what the string is now: nothing that it does not need is in it. */
 static ChainLoop loop_of(const Chain* chain, uint32_t n_taps) {
   const bool is_moving = chain->n_gliding > 0;
-  const bool is_bending = chain->now.k2 != 0.0f || (is_moving && chain->goal.k2 != 0.0f);
-  const ChainMode mode = is_moving ? CHAIN_MOVING : chain->is_exact ? CHAIN_EXACT : CHAIN_STILL;
-  const ChainLoop loop = chain->kernel->loops[is_bending][mode][n_taps];
+  const bool is_bending = chain->now.k2 != 0.0 || (is_moving && chain->goal.k2 != 0.0);
+  const ChainLoop loop = chain->loops->loops[is_bending][is_moving][n_taps];
   assert(loop);
   return loop;
 }
 
-static float* residues(const Chain* chain) {
-  return chain->cells + n_floats(chain);
+size_t chain_size(uint32_t n_masses) {
+  return cells_size(n_masses, sizeof(double)) + cells_size(n_masses, sizeof(float));
 }
 
-/* The coefficients have come to their goal. */
-static void settle(Chain* chain) {
-  const double lambda1 = tuning_lambda(chain->n_masses, 1);
-  chain->now = chain->goal;
-  chain->n_gliding = 0;
-  chain->is_exact = (double)chain->goal.z0 + (double)chain->goal.z1 * lambda1 < EXACT_BELOW;
-  memset(residues(chain), 0, n_floats(chain) * sizeof(float));
-}
-
-size_t chain_floats(uint32_t n_masses) {
-  const size_t n_cells = ((size_t)n_masses + CHAIN_MAX_LANES - 1) / CHAIN_MAX_LANES;
-  return n_cells * 4 * CHAIN_MAX_LANES;
-}
-
-void chain_init(Chain* chain, const ChainKernel* kernel, float* cells, uint32_t n_masses) {
+void chain_init(Chain* chain, const ChainKernel* kernel, void* memory, uint32_t n_masses) {
   assert(n_masses >= 1 && n_masses <= CHAIN_MAX_MASSES);
-  *chain = (Chain){
-      .kernel = kernel,
-      .cells = cells,
-      .n_masses = n_masses,
-      .n_cells = (n_masses + kernel->n_lanes - 1) / kernel->n_lanes,
-  };
-  chain_rest(chain);
+  *chain = (Chain){.kernel = kernel, .memory = memory, .n_masses = n_masses};
+  lay(chain, kernel->in_float);
 }
 
 void chain_rest(Chain* chain) {
-  memset(chain->cells, 0, 2 * n_floats(chain) * sizeof(float));
+  const size_t n_numbers = (size_t)chain->n_cells * 2 * chain->loops->n_lanes;
+  memset(chain->cells, 0, n_numbers * chain->loops->number_size);
 }
 
 void chain_set(Chain* chain, StringCoefs coefs) {
-  chain->goal = narrow(coefs);
+  chain->goal = coefs;
   settle(chain);
 }
 
@@ -84,40 +117,39 @@ void chain_glide(Chain* chain, StringCoefs coefs, uint32_t n_frames) {
     chain_set(chain, coefs);
     return;
   }
-  const float share = 1.0f / (float)n_frames;
-  chain->goal = narrow(coefs);
+  const double share = 1.0 / n_frames;
+  chain->goal = coefs;
   chain->n_gliding = n_frames;
-  chain->change = (ChainCoefs){
-      .k1 = (chain->goal.k1 - chain->now.k1) * share,
-      .k2 = (chain->goal.k2 - chain->now.k2) * share,
-      .z0 = (chain->goal.z0 - chain->now.z0) * share,
-      .z1 = (chain->goal.z1 - chain->now.z1) * share,
+  chain->change = (StringCoefs){
+      .k1 = (coefs.k1 - chain->now.k1) * share,
+      .k2 = (coefs.k2 - chain->now.k2) * share,
+      .z0 = (coefs.z0 - chain->now.z0) * share,
+      .z1 = (coefs.z1 - chain->now.z1) * share,
   };
 }
 
 float chain_position(const Chain* chain, uint32_t i) {
-  return chain->cells[offset_of(chain, i)];
+  return (float)position(chain, i);
 }
 
 float chain_velocity(const Chain* chain, uint32_t i) {
-  return chain->cells[offset_of(chain, i) + chain->kernel->n_lanes];
+  return (float)velocity(chain, i);
 }
 
 void chain_place(Chain* chain, uint32_t i, float x, float u) {
-  chain->cells[offset_of(chain, i)] = x;
-  chain->cells[offset_of(chain, i) + chain->kernel->n_lanes] = u;
+  place(chain, i, (double)x, (double)u);
 }
 
 void chain_push(Chain* chain, uint32_t i, float u) {
-  chain->cells[offset_of(chain, i) + chain->kernel->n_lanes] += u;
+  place(chain, i, position(chain, i), velocity(chain, i) + (double)u);
 }
 
 double chain_amplitude(const Chain* chain, double a1) {
   double xx = 0.0;
   double uu = 0.0;
   for (uint32_t i = 0; i < chain->n_masses; ++i) {
-    const double x = chain_position(chain, i);
-    const double u = chain_velocity(chain, i);
+    const double x = position(chain, i);
+    const double u = velocity(chain, i);
     xx += x * x;
     uu += u * u;
   }
@@ -125,43 +157,41 @@ double chain_amplitude(const Chain* chain, double a1) {
 }
 
 /* Run on until the coefficients are there, or the frames are over; the frames that were run. */
-static uint32_t run_stretch(Chain* chain, ChainWork work, uint32_t n_taps) {
+static uint32_t run_stretch(
+    Chain* chain, uint32_t n_frames, const ChainTap* taps, uint32_t n_taps, float* const* out) {
   const bool is_moving = chain->n_gliding > 0;
-  if (is_moving && chain->n_gliding < work.n_frames) {
-    work.n_frames = chain->n_gliding;
+  const uint32_t n = is_moving && chain->n_gliding < n_frames ? chain->n_gliding : n_frames;
+  ChainReader readers[CHAIN_MAX_TAPS];
+  for (uint32_t t = 0; t < n_taps; ++t) {
+    readers[t] = reader_of(chain, taps[t]);
   }
-  loop_of(chain, n_taps)(work);
+  loop_of(chain, n_taps)((ChainWork){
+      .cells = chain->cells,
+      .n_masses = chain->n_masses,
+      .n_cells = chain->n_cells,
+      .n_frames = n,
+      .now = &chain->now,
+      .change = chain->change,
+      .readers = readers,
+      .out = out,
+  });
   if (is_moving) {
-    chain->n_gliding -= work.n_frames;
+    chain->n_gliding -= n;
     if (chain->n_gliding == 0) {
       settle(chain);
     }
   }
-  return work.n_frames;
+  return n;
 }
 
 void chain_run(
     Chain* chain, uint32_t n_frames, const ChainTap* taps, uint32_t n_taps, float* const* out) {
-  ChainReader readers[CHAIN_MAX_TAPS];
   float* rest[CHAIN_MAX_TAPS];
   for (uint32_t t = 0; t < n_taps; ++t) {
-    readers[t] = reader_of(chain, taps[t]);
     rest[t] = out[t];
   }
   for (uint32_t done = 0; done < n_frames;) {
-    const uint32_t n = run_stretch(chain,
-                                   (ChainWork){
-                                       .cells = chain->cells,
-                                       .residues = residues(chain),
-                                       .n_masses = chain->n_masses,
-                                       .n_cells = chain->n_cells,
-                                       .n_frames = n_frames - done,
-                                       .now = &chain->now,
-                                       .change = chain->change,
-                                       .readers = readers,
-                                       .out = rest,
-                                   },
-                                   n_taps);
+    const uint32_t n = run_stretch(chain, n_frames - done, taps, n_taps, rest);
     for (uint32_t t = 0; t < n_taps; ++t) {
       rest[t] += n;
     }

@@ -7,8 +7,12 @@
        link = k1 Δx + z1 Δu + k2 Δ(L x) ;   u_i += link_{i+1} − link_i − z0 u_i ;   x_i += u_i.
 
    It keeps position x and scaled velocity u = h v, never two positions: in floats that is worth 40
-   dB.  A string that is so weakly damped that rounding would be heard in its decay is stepped with
-   compensated sums (CHAIN_EXACT).
+   dB.
+
+   Precision.  Floats do for strings that die fast.  Rounding changes what a string loses in a step
+   by up to 3 in 10⁹, which is nothing to a string that loses 1 in 10⁴; but one that loses 1 in 10⁶
+   would die a part in a hundred too soon or too late, so weakly damped strings are stepped in
+   doubles.
 
    Layout.  The string is cut into as many segments as the kernel has lanes, S cells each, one a
    lane: mass i is lane i div S of cell i mod S, and a cell is a vector of x and a vector of u.  So
@@ -37,29 +41,29 @@ typedef struct {
 /** A string; zero is one without masses. */
 typedef struct {
   const ChainKernel* kernel;
-  float* cells; /**< In the caller's memory, aligned to CHAIN_ALIGNMENT; the residues are behind
-                   them */
-  uint32_t n_masses;  /**< N */
-  uint32_t n_cells;   /**< S = ⌈N / lanes⌉ */
+  const ChainLoops* loops; /**< Those of the precision it has now */
+  void* memory;            /**< The caller's */
+  void* cells;             /**< Where in it the masses are, in the precision of now */
+  uint32_t n_masses;       /**< N */
+  uint32_t n_cells;        /**< S = ⌈N / lanes⌉ */
   uint32_t n_gliding; /**< Steps until `goal` is reached; 0 when the coefficients stand still */
-  bool is_exact;      /**< Whether sums are compensated, while the coefficients stand still */
-  ChainCoefs now;     /**< What the next step uses, while still */
-  ChainCoefs change;  /**< What a step adds to it, while gliding */
-  ChainCoefs goal;    /**< Where a glide ends */
+  StringCoefs now;    /**< What the next step uses, while still */
+  StringCoefs change; /**< What a step adds to it, while gliding */
+  StringCoefs goal;   /**< Where a glide ends */
 } Chain;
 
-/** Floats that hold `n_masses` with any kernel; a multiple of CHAIN_ALIGNMENT in bytes. */
-size_t chain_floats(uint32_t n_masses);
+/** Bytes that hold `n_masses` with any kernel; a multiple of CHAIN_ALIGNMENT. */
+size_t chain_size(uint32_t n_masses);
 
 /**
    Make a chain of `n_masses` at rest.
 
    @param kernel    From chain_kernel()
-   @param cells     chain_floats(n_masses) of them, aligned to CHAIN_ALIGNMENT; kept by the chain,
-   not owned
+   @param memory    chain_size(n_masses) bytes, aligned to CHAIN_ALIGNMENT; kept by the chain, not
+   owned
    @param n_masses  1 to CHAIN_MAX_MASSES
 */
-void chain_init(Chain* chain, const ChainKernel* kernel, float* cells, uint32_t n_masses);
+void chain_init(Chain* chain, const ChainKernel* kernel, void* memory, uint32_t n_masses);
 
 /** Bring every mass to rest. */
 void chain_rest(Chain* chain);

@@ -2,7 +2,11 @@
 
 #include <stdbool.h>
 
+static const ChainKernel plain = {"plain", &chain_loops_float4, &chain_loops_double2};
+
 #ifdef HOOKE_AVX2
+static const ChainKernel avx2 = {"AVX2 and FMA", &chain_loops_float8, &chain_loops_double4};
+
 static bool has_avx2(void) {
   __builtin_cpu_init();
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
@@ -12,8 +16,8 @@ static bool has_avx2(void) {
 const ChainKernel* chain_kernel(uint32_t i) {
 #ifdef HOOKE_AVX2
   if (has_avx2()) {
-    return i == 0 ? &chain_kernel_eight : i == 1 ? &chain_kernel_four : NULL;
+    return i == 0 ? &avx2 : i == 1 ? &plain : NULL;
   }
 #endif
-  return i == 0 ? &chain_kernel_four : NULL;
+  return i == 0 ? &plain : NULL;
 }

@@ -7,6 +7,8 @@
 #ifndef HOOKE_CORE_CHAIN_KERNEL_H
 #define HOOKE_CORE_CHAIN_KERNEL_H
 
+#include "core/tuning.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -17,12 +19,7 @@ enum {
   CHAIN_ALIGNMENT = 64, /**< Of the cells [bytes] */
 };
 
-/** The coefficients of core/tuning.h in the precision of the loop. */
-typedef struct {
-  float k1, k2, z0, z1;
-} ChainCoefs;
-
-/** A tap resolved to floats among the cells. */
+/** A tap resolved to numbers among the cells. */
 typedef struct {
   size_t offset[2];
   float weight[2];
@@ -30,66 +27,59 @@ typedef struct {
 
 /** What a loop works on; see Chain. */
 typedef struct {
-  float* cells;
-  float* residues; /**< Of the cells, laid out as they are */
+  void* cells;
   uint32_t n_masses;
   uint32_t n_cells;
   uint32_t n_frames;
-  ChainCoefs* now;   /**< Read; written where they move */
-  ChainCoefs change; /**< Per frame */
+  StringCoefs* now;   /**< Read; written where they move */
+  StringCoefs change; /**< Per frame */
   const ChainReader* readers;
   float* const* out; /**< A buffer of n_frames for each reader, added to */
 } ChainWork;
 
 typedef void (*ChainLoop)(ChainWork work);
 
-/** How the coefficients and the rounding are handled. */
-typedef enum {
-  CHAIN_STILL,  /**< The coefficients stand still */
-  CHAIN_MOVING, /**< They move */
-  CHAIN_EXACT, /**< They stand still, and what rounding takes from x and u is given back in the next
-                  step */
-  CHAIN_MODES
-} ChainMode;
+/** The loops of one precision. */
+typedef struct {
+  size_t number_size; /**< Of a number in the cells [bytes] */
+  uint32_t n_lanes;   /**< Segments that a string is cut into */
+  /** [is bending][is moving][taps]; NULL where taps are not 1, 2 or 4 */
+  ChainLoop loops[2][2][CHAIN_MAX_TAPS + 1];
+} ChainLoops;
 
-/** One set of loops. */
+/** What one kind of processor has. */
 typedef struct {
   const char* name;
-  uint32_t n_lanes; /**< Segments that a string is cut into */
-  /** [is bending][mode][taps]; NULL where taps are not 1, 2 or 4 */
-  ChainLoop loops[2][CHAIN_MODES][CHAIN_MAX_TAPS + 1];
+  const ChainLoops* in_float;
+  const ChainLoops* in_double;
 } ChainKernel;
 
 /**
-   X(name, is_bending, mode, n_taps): every scene that a string can be in.  A loop is made for each,
-   and does what its scene needs alone.
+   X(name, is_bending, is_moving, n_taps): every scene that a string can be in.  A loop is made for
+   each, and does what its scene needs alone.
 */
 #define CHAIN_SCENES(X)                                                                            \
-  X(flexible_still_1, 0, CHAIN_STILL, 1)                                                           \
-  X(flexible_still_2, 0, CHAIN_STILL, 2)                                                           \
-  X(flexible_still_4, 0, CHAIN_STILL, 4)                                                           \
-  X(flexible_moving_1, 0, CHAIN_MOVING, 1)                                                         \
-  X(flexible_moving_2, 0, CHAIN_MOVING, 2)                                                         \
-  X(flexible_moving_4, 0, CHAIN_MOVING, 4)                                                         \
-  X(flexible_exact_1, 0, CHAIN_EXACT, 1)                                                           \
-  X(flexible_exact_2, 0, CHAIN_EXACT, 2)                                                           \
-  X(flexible_exact_4, 0, CHAIN_EXACT, 4)                                                           \
-  X(bending_still_1, 1, CHAIN_STILL, 1)                                                            \
-  X(bending_still_2, 1, CHAIN_STILL, 2)                                                            \
-  X(bending_still_4, 1, CHAIN_STILL, 4)                                                            \
-  X(bending_moving_1, 1, CHAIN_MOVING, 1)                                                          \
-  X(bending_moving_2, 1, CHAIN_MOVING, 2)                                                          \
-  X(bending_moving_4, 1, CHAIN_MOVING, 4)                                                          \
-  X(bending_exact_1, 1, CHAIN_EXACT, 1)                                                            \
-  X(bending_exact_2, 1, CHAIN_EXACT, 2)                                                            \
-  X(bending_exact_4, 1, CHAIN_EXACT, 4)
+  X(flexible_still_1, 0, 0, 1)                                                                     \
+  X(flexible_still_2, 0, 0, 2)                                                                     \
+  X(flexible_still_4, 0, 0, 4)                                                                     \
+  X(flexible_moving_1, 0, 1, 1)                                                                    \
+  X(flexible_moving_2, 0, 1, 2)                                                                    \
+  X(flexible_moving_4, 0, 1, 4)                                                                    \
+  X(bending_still_1, 1, 0, 1)                                                                      \
+  X(bending_still_2, 1, 0, 2)                                                                      \
+  X(bending_still_4, 1, 0, 4)                                                                      \
+  X(bending_moving_1, 1, 1, 1)                                                                     \
+  X(bending_moving_2, 1, 1, 2)                                                                     \
+  X(bending_moving_4, 1, 1, 4)
 
-/** Four lanes: what every processor with vectors has. */
-extern const ChainKernel chain_kernel_four;
+/** Vectors of 16 bytes: what every processor that has vectors has. */
+extern const ChainLoops chain_loops_float4;
+extern const ChainLoops chain_loops_double2;
 
 #ifdef HOOKE_AVX2
-/** Eight lanes with fused multiply and add; only where the processor has AVX2 and FMA. */
-extern const ChainKernel chain_kernel_eight;
+/** Vectors of 32 bytes with fused multiply and add; only where the processor has AVX2 and FMA. */
+extern const ChainLoops chain_loops_float8;
+extern const ChainLoops chain_loops_double4;
 #endif
 
 /** The `i`-th kernel that this processor can run, the best first; NULL past the last. */

@@ -1,21 +1,20 @@
 /**
-   The source of every chain kernel: not a header to be included for its names, but the loops
+   The source of all chain loops: not a header to be included for its names, but the loops
    themselves.
 
    Before it is included, these say for what:
-   CHAIN_LOOP_LANES    floats in a vector
+   CHAIN_LOOP_NUMBER   float or double
+   CHAIN_LOOP_LANES    numbers in a vector
    CHAIN_LOOP_BEFORE   how to shuffle (v, 0) so that lane l has lane l − 1, and the first the wall
    CHAIN_LOOP_BEHIND   how to shuffle (v, 0) so that lane l has lane l + 1, and the last the wall
-   CHAIN_LOOP_KERNEL, CHAIN_LOOP_NAME   the kernel that it makes
+   CHAIN_LOOP_NAME     the loops that it makes
 
    Glossary:  x  position;  u  scaled velocity h v;  link  what a spring and damper pull with, k1 Δx
    + z1 Δu + k2 Δ(L x), Δ being the difference between neighbours;  bow  L x, how far a mass is from
    the middle of its neighbours;  j  cell.
 
-   The differences come before the products.  They are nearly exact, so a link is as precise as it
-   is small; were k1 x + z1 u rounded first, a link would be a multiple of the last place of x, the
-   sum with u would always round to the same side, and weakly damped strings would die up to 20 %
-   too soon or too late.
+   The differences come before the products: they are nearly exact, so a link is as precise as it is
+   small.
 */
 #include "core/chain_kernel.h"
 
@@ -23,8 +22,14 @@
 
 #define INLINE static inline __attribute__((always_inline))
 
-typedef float Vector __attribute__((vector_size(CHAIN_LOOP_LANES * sizeof(float)), may_alias));
-typedef int32_t Mask __attribute__((vector_size(CHAIN_LOOP_LANES * sizeof(int32_t))));
+typedef CHAIN_LOOP_NUMBER Number;
+typedef Number Vector __attribute__((vector_size(CHAIN_LOOP_LANES * sizeof(Number)), may_alias));
+typedef int64_t Mask __attribute__((vector_size(CHAIN_LOOP_LANES * sizeof(Number))));
+
+/* The coefficients in the precision of the loop. */
+typedef struct {
+  Number k1, k2, z0, z1;
+} Coefs;
 
 /* As many masses as lanes: where they are, and how far they move in a step. */
 typedef struct {
@@ -48,49 +53,39 @@ INLINE Vector behind(Vector v) {
 
 /* All ones but for the wall, where the wall is a lane of the cell after the last mass. */
 INLINE Mask wall_mask(uint32_t wall_lane) {
-  Mask mask;
+  union {
+    unsigned char bytes[CHAIN_LOOP_LANES][sizeof(Number)];
+    Mask mask;
+  } all;
   for (uint32_t l = 0; l < CHAIN_LOOP_LANES; ++l) {
-    mask[l] = l == wall_lane ? 0 : -1;
+    for (size_t i = 0; i < sizeof(Number); ++i) {
+      all.bytes[l][i] = l == wall_lane ? 0x00 : 0xFF;
+    }
   }
-  return mask;
+  return all.mask;
 }
 
 INLINE Vector hold(Vector v, Mask mask) {
   return (Vector)((Mask)v & mask);
 }
 
-INLINE Vector link_of(Vector dx, Vector du, ChainCoefs c) {
+INLINE Vector link_of(Vector dx, Vector du, Coefs c) {
   return c.k1 * dx + c.z1 * du;
 }
 
-INLINE Vector link_ahead(const Cell* cell, ChainCoefs c) {
+INLINE Vector link_ahead(const Cell* cell, Coefs c) {
   return link_of(cell[1].x - cell->x, cell[1].u - cell->u, c);
 }
 
-/* sum + part, and what rounding took from it; `rest` is what it took the last time. */
-INLINE Vector add_exactly(Vector sum, Vector part, Vector* rest) {
-  const Vector whole = part + *rest;
-  const Vector rounded = sum + whole;
-  *rest = whole - (rounded - sum);
-  return rounded;
-}
-
 /* Velocity first, then position with the new velocity. */
-INLINE void move(Cell* cell, Cell* residue, Vector pulls, float z0, ChainMode mode) {
-  const Vector force = pulls - z0 * cell->u;
-  if (mode == CHAIN_EXACT) {
-    cell->u = add_exactly(cell->u, force, &residue->u);
-    cell->x = add_exactly(cell->x, cell->u, &residue->x);
-  } else {
-    const Vector u = cell->u + force;
-    cell->u = u;
-    cell->x += u;
-  }
+INLINE void move(Cell* cell, Vector pulls, Number z0) {
+  const Vector u = cell->u + (pulls - z0 * cell->u);
+  cell->u = u;
+  cell->x += u;
 }
 
 /* One step of a perfectly flexible string: each link is computed once and carried. */
-INLINE void
-step_flexible(Cell* cells, Cell* residues, uint32_t n_cells, ChainCoefs c, ChainMode mode) {
+INLINE void step_flexible(Cell* cells, uint32_t n_cells, Coefs c) {
   const uint32_t last = n_cells - 1;
   const Vector x_behind = behind(cells[0].x);
   const Vector u_behind = behind(cells[0].u);
@@ -98,11 +93,11 @@ step_flexible(Cell* cells, Cell* residues, uint32_t n_cells, ChainCoefs c, Chain
       link_of(cells[0].x - before(cells[last].x), cells[0].u - before(cells[last].u), c);
   for (uint32_t j = 0; j < last; ++j) {
     const Vector link = link_ahead(&cells[j], c);
-    move(&cells[j], &residues[j], link - link_before, c.z0, mode);
+    move(&cells[j], link - link_before, c.z0);
     link_before = link;
   }
   const Vector link = link_of(x_behind - cells[last].x, u_behind - cells[last].u, c);
-  move(&cells[last], &residues[last], link - link_before, c.z0, mode);
+  move(&cells[last], link - link_before, c.z0);
 }
 
 /* L x of every cell, into bow[1 …], and of those before and behind. */
@@ -124,13 +119,7 @@ find_bow(Vector* bow, const Cell* cells, uint32_t n_cells, uint32_t wall_cell, M
 
 /* One step of a string with bending: links look two masses away, so L x is computed for all first.
  */
-INLINE void step_bending(Cell* cells,
-                         Cell* residues,
-                         uint32_t n_cells,
-                         ChainCoefs c,
-                         ChainMode mode,
-                         uint32_t wall_cell,
-                         Mask mask) {
+INLINE void step_bending(Cell* cells, uint32_t n_cells, Coefs c, uint32_t wall_cell, Mask mask) {
   Vector bow[MAX_CELLS + 2];
   const uint32_t last = n_cells - 1;
   const Vector x_behind = behind(cells[0].x);
@@ -141,64 +130,67 @@ INLINE void step_bending(Cell* cells,
       c.k2 * (bow[1] - bow[0]);
   for (uint32_t j = 0; j < last; ++j) {
     const Vector link = link_ahead(&cells[j], c) + c.k2 * (bow[j + 2] - bow[j + 1]);
-    move(&cells[j], &residues[j], link - link_before, c.z0, mode);
+    move(&cells[j], link - link_before, c.z0);
     link_before = link;
   }
   const Vector link = link_of(x_behind - cells[last].x, u_behind - cells[last].u, c) +
                       c.k2 * (bow[n_cells + 1] - bow[n_cells]);
-  move(&cells[last], &residues[last], link - link_before, c.z0, mode);
+  move(&cells[last], link - link_before, c.z0);
 }
 
-INLINE ChainCoefs advance(ChainCoefs now, ChainCoefs change) {
-  return (ChainCoefs){now.k1 + change.k1, now.k2 + change.k2, now.z0 + change.z0,
-                      now.z1 + change.z1};
+INLINE Coefs narrow(StringCoefs wide) {
+  return (Coefs){(Number)wide.k1, (Number)wide.k2, (Number)wide.z0, (Number)wide.z1};
 }
 
-INLINE void hold_wall(Cell* cell, Mask mask) {
-  cell->x = hold(cell->x, mask);
-  cell->u = hold(cell->u, mask);
+INLINE StringCoefs advance(StringCoefs now, StringCoefs change) {
+  return (StringCoefs){now.k1 + change.k1, now.k2 + change.k2, now.z0 + change.z0,
+                       now.z1 + change.z1};
+}
+
+INLINE float read_tap(const Number* numbers, const ChainReader* reader) {
+  return (float)((Number)reader->weight[0] * numbers[reader->offset[0]] +
+                 (Number)reader->weight[1] * numbers[reader->offset[1]]);
 }
 
 /* The flags are constants wherever this is used, so nothing of them is left to test in the loop. */
-INLINE void run(ChainWork work, bool is_bending, ChainMode mode, uint32_t n_taps) {
-  Cell* const cells = (Cell*)work.cells;
-  Cell* const residues = (Cell*)work.residues;
+INLINE void run(ChainWork work, bool is_bending, bool is_moving, uint32_t n_taps) {
+  Cell* const cells = work.cells;
+  const Number* const numbers = work.cells;
   const uint32_t n_cells = work.n_cells;
   const uint32_t wall_cell = work.n_masses % n_cells;
   const Mask mask = wall_mask(work.n_masses / n_cells);
-  ChainCoefs now = *work.now;
+  StringCoefs wide = *work.now;
+  Coefs now = narrow(wide);
   for (uint32_t n = 0; n < work.n_frames; ++n) {
-    if (mode == CHAIN_MOVING) {
-      now = advance(now, work.change);
+    if (is_moving) {
+      wide = advance(wide, work.change);
+      now = narrow(wide);
     }
     if (is_bending) {
-      step_bending(cells, residues, n_cells, now, mode, wall_cell, mask);
+      step_bending(cells, n_cells, now, wall_cell, mask);
     } else {
-      step_flexible(cells, residues, n_cells, now, mode);
+      step_flexible(cells, n_cells, now);
     }
-    hold_wall(&cells[wall_cell], mask);
-    if (mode == CHAIN_EXACT) {
-      hold_wall(&residues[wall_cell], mask);
-    }
+    cells[wall_cell].x = hold(cells[wall_cell].x, mask);
+    cells[wall_cell].u = hold(cells[wall_cell].u, mask);
     for (uint32_t t = 0; t < n_taps; ++t) {
-      const ChainReader* const reader = &work.readers[t];
-      work.out[t][n] += reader->weight[0] * work.cells[reader->offset[0]] +
-                        reader->weight[1] * work.cells[reader->offset[1]];
+      work.out[t][n] += read_tap(numbers, &work.readers[t]);
     }
   }
-  *work.now = now;
+  *work.now = wide;
 }
 
-#define LOOP(name, is_bending, mode, n_taps)                                                       \
+#define LOOP(name, is_bending, is_moving, n_taps)                                                  \
   static void run_##name(ChainWork work) {                                                         \
-    run(work, is_bending, mode, n_taps);                                                           \
+    run(work, is_bending, is_moving, n_taps);                                                      \
   }
 CHAIN_SCENES(LOOP)
 #undef LOOP
 
-#define ENTRY(name, is_bending, mode, n_taps) .loops[is_bending][mode][n_taps] = run_##name,
-const ChainKernel CHAIN_LOOP_KERNEL = {
-    .name = CHAIN_LOOP_NAME,
+#define ENTRY(name, is_bending, is_moving, n_taps)                                                 \
+  .loops[is_bending][is_moving][n_taps] = run_##name,
+const ChainLoops CHAIN_LOOP_NAME = {
+    .number_size = sizeof(Number),
     .n_lanes = CHAIN_LOOP_LANES,
     CHAIN_SCENES(ENTRY) //
 };

@@ -139,18 +139,18 @@ static void retune_all(Harp* harp, uint32_t n_glide) {
   }
 }
 
-/* Lay out the memory of all strings, or with no memory count the cells that it takes. */
-static size_t lay_out(Harp* harp, float* cells) {
-  size_t n_floats = 0;
+/* Lay out the memory of all strings, or with no memory count the bytes that it takes. */
+static size_t lay_out(Harp* harp, char* memory) {
+  size_t size = 0;
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
     const double lowest_hz = HARP_LOWEST_TUNING_HZ * exp2(HARP_LOWEST_BEND / 12.0);
     const uint32_t capacity = harp_string_capacity(harp->rate_hz, key, lowest_hz);
-    if (cells) {
-      harp_string_init(&harp->strings[key], harp->rate_hz, key, cells + n_floats, capacity);
+    if (memory) {
+      harp_string_init(&harp->strings[key], harp->rate_hz, key, memory + size, capacity);
     }
-    n_floats += chain_floats(capacity);
+    size += chain_size(capacity);
   }
-  return n_floats;
+  return size;
 }
 
 Harp* harp_new(double rate_hz) {
@@ -160,21 +160,21 @@ Harp* harp_new(double rate_hz) {
   }
   harp->rate_hz = rate_hz;
   harp->n_gesture = (uint32_t)fmax(1.0, round(GESTURE_S * rate_hz));
-  const size_t size = (lay_out(harp, NULL) + chain_floats(1)) * sizeof(float);
-  harp->cells = aligned_alloc(CHAIN_ALIGNMENT, size);
-  if (!harp->cells) {
+  const size_t size = lay_out(harp, NULL) + chain_size(1);
+  harp->memory = aligned_alloc(CHAIN_ALIGNMENT, size);
+  if (!harp->memory) {
     harp_free(harp);
     return NULL;
   }
-  memset(harp->cells, 0, size);
-  lay_out(harp, harp->cells);
+  memset(harp->memory, 0, size);
+  lay_out(harp, harp->memory);
   ramp_init(&harp->fade, 1.0f);
   return harp;
 }
 
 void harp_free(Harp* harp) {
   if (harp) {
-    free(harp->cells);
+    free(harp->memory);
     free(harp);
   }
 }

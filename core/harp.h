@@ -64,7 +64,7 @@ typedef struct {
   uint32_t n_fade;    /**< Frames that the next fade will take */
   HarpKey keys[HARP_KEYS];
   HarpString strings[HARP_KEYS];
-  float* cells; /**< Memory of all strings; owned */
+  void* memory; /**< Memory of all strings; owned */
   float mix[CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;
 

@@ -49,7 +49,7 @@ static bool restring(HarpString* string, const Patch* patch, double f0_hz) {
   if (n_masses == 0 || tuning_solve(&target, n_masses, &coefs)) {
     return false;
   }
-  chain_init(&string->chain, string->kernel, string->cells, n_masses);
+  chain_init(&string->chain, string->kernel, string->memory, n_masses);
   chain_set(&string->chain, coefs);
   note_design(string, f0_hz, coefs);
   string->is_awake = true;
@@ -71,9 +71,9 @@ uint32_t harp_string_capacity(double rate_hz, uint32_t key, double lowest_hz) {
 }
 
 void harp_string_init(
-    HarpString* string, double rate_hz, uint32_t key, float* cells, uint32_t capacity) {
+    HarpString* string, double rate_hz, uint32_t key, void* memory, uint32_t capacity) {
   *string = (HarpString){.kernel = chain_kernel(0),
-                         .cells = cells,
+                         .memory = memory,
                          .capacity = capacity,
                          .key = key,
                          .rate_hz = rate_hz};

@@ -24,7 +24,7 @@ typedef enum {
 typedef struct {
   Chain chain;
   const ChainKernel* kernel; /**< What steps it */
-  float* cells;              /**< Memory for `capacity` masses, the caller's */
+  void* memory;              /**< Memory for `capacity` masses, the caller's */
   uint32_t capacity;         /**< Most masses it can have */
   uint32_t key;              /**< MIDI note number */
   double rate_hz;            /**< Steps per second [Hz] */
@@ -45,10 +45,10 @@ double harp_string_pitch_hz(const Patch* patch, uint32_t key, double bend_semito
 */
 uint32_t harp_string_capacity(double rate_hz, uint32_t key, double lowest_hz);
 
-/** Lay a string at rest over `cells`, chain_floats(capacity) of them, aligned to CHAIN_ALIGNMENT.
+/** Lay a string at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT.
  */
 void harp_string_init(
-    HarpString* string, double rate_hz, uint32_t key, float* cells, uint32_t capacity);
+    HarpString* string, double rate_hz, uint32_t key, void* memory, uint32_t capacity);
 
 /** Silence a string and set all its masses to exact zeros. */
 void harp_string_sleep(HarpString* string);

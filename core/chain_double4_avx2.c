@@ -1,0 +1,8 @@
+/* The loops for vectors of 32 bytes.  This file is compiled for AVX2 and FMA. */
+#define CHAIN_LOOP_NUMBER double
+#define CHAIN_LOOP_LANES 4
+#define CHAIN_LOOP_BEFORE 4, 0, 1, 2
+#define CHAIN_LOOP_BEHIND 1, 2, 3, 4
+#define CHAIN_LOOP_NAME chain_loops_double4
+
+#include "core/chain_loop.h"
