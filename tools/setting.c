@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The bound is a float's: leave room for a decimal that is a hair beyond it, and take the bound. */
+/* The bound is a float, up to 6e-8 of it away from the decimal meant: allow for that, and take the
+ * bound. */
 static bool
 set_number(const Args* args, Host* host, const char* symbol, const char* text, HostRange range) {
   const double min = isnan(range.min) ? -(double)FLT_MAX : (double)range.min;
@@ -16,7 +17,7 @@ set_number(const Args* args, Host* host, const char* symbol, const char* text, H
     const long to = (long)fmin(max, INT32_MAX);
     return args_whole(args, symbol, text, from, to, &whole) && host_set(host, symbol, (float)whole);
   }
-  const double hair = 1e-6;
+  const double hair = 1e-7;
   return args_number(args, symbol, text, min - hair * fabs(min), max + hair * fabs(max), &value) &&
          host_set(host, symbol, (float)fmin(fmax(value, min), max));
 }
