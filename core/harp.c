@@ -30,12 +30,18 @@ static double clamp(double value, double low, double high) {
   return fmin(fmax(value, low), high);
 }
 
+/* A place beyond an end folds back, so that a wide pair near a wall has no silent side. */
+static double fold(double place) {
+  const double inside = fabs(place);
+  return inside > 1.0 ? 2.0 - inside : inside;
+}
+
 /* Left and right, or the one that is both. */
 static void add_places(Reading* reading, HarpPickups pickups) {
   const double half = reading->is_stereo ? 0.5 * pickups.spread : 0.0;
-  reading->place[reading->n_taps++] = clamp(pickups.place - half, 0.0, 1.0);
+  reading->place[reading->n_taps++] = fold(pickups.place - half);
   if (reading->is_stereo) {
-    reading->place[reading->n_taps++] = clamp(pickups.place + half, 0.0, 1.0);
+    reading->place[reading->n_taps++] = fold(pickups.place + half);
   }
 }
 

@@ -12,8 +12,9 @@ typedef struct {
   double loss; /**< Share of the fundamental's damping that sits between the masses, 0 to 1 */
   double inharmonicity; /**< B, ≥ 0; 0: perfectly flexible */
   double pickup;        /**< Where strings are read, fraction of the length, 0 to 1 */
-  double spread;    /**< Between the left and the right pickup, fraction of the length, 0 to 0.5 */
-  double pluck;     /**< Where strings are plucked, fraction of the length, 0 to 1 */
+  double spread; /**< Between the left and the right pickup, fraction of the length, 0 to 0.5; past
+                    an end, folded back */
+  double pluck;  /**< Where strings are plucked, fraction of the length, 0 to 1 */
   double hardness;  /**< Of what plucks, 0 to 1 */
   double release_s; /**< τ once the key is up [s], > 0; a damper never makes a string ring longer */
   double tuning_hz;    /**< A4 [Hz], > 0 */
