@@ -8,6 +8,7 @@ Sources are found by where they lie, so that a new one needs no line here:
     ttl/, presets/     the plugin's descriptions and presets, beside it
     tools/main.c       the program `hooke`; the other tools/*.c are a library which the tests share
     tests/test_*.c     a test program each; the other tests/*.c are linked into all of them
+    tests/plant_*.c    a library each, built as the plugin is, with a fault that a test has to find
     tests/test_*.sh    run as tests too
 """
 
@@ -204,7 +205,13 @@ def build_tools(bld):
 
 def build_tests(bld):
     use = 'hooke_tools hooke_analysis hooke_core CMOCKA LILV SNDFILE SMF LAPACK LV2 M DL PTHREAD'
-    library(bld, 'hooke_helpers', bld.path.ant_glob('tests/*.c', excl=['tests/test_*.c']), use=use)
+    helpers = bld.path.ant_glob('tests/*.c', excl=['tests/test_*.c', 'tests/plant_*.c'])
+    library(bld, 'hooke_helpers', helpers, use=use)
+    env = bld.env.derive()
+    env.cshlib_PATTERN = '%s.so'
+    for node in bld.path.ant_glob('tests/plant_*.c'):
+        bld.shlib(source=[node], target='tests/' + node.name[:-len('.c')], env=env, install_path=None,
+                  linkflags=bld.env.PLUGIN_LINKFLAGS)
     for node in bld.path.ant_glob('tests/test_*.c'):
         bld.program(source=[node], target='tests/' + node.name[:-len('.c')], use='hooke_helpers ' + use,
                     install_path=None)
