@@ -1,0 +1,292 @@
+/* What is called on the audio thread takes no memory, leaves the processor as it was, and makes no
+ * denormals. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "tests/random.h"
+#include "tests/strings_host.h"
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+/* Sanitizers bring a heap of their own, which cannot be watched from here. */
+#if defined(__SANITIZE_ADDRESS__)
+#define HAS_OWN_HEAP 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define HAS_OWN_HEAP 1
+#endif
+#endif
+
+enum { RATE = 48000, BLOCK = 512, N_RUNS = 800 };
+
+static const char* program;
+
+/* Calls of the heap that the thread has made while it was watched. */
+static _Thread_local bool is_watched;
+static _Thread_local unsigned n_heap_calls;
+
+#if !defined(HAS_OWN_HEAP) && defined(__GLIBC__)
+
+#define SEEN __attribute__((visibility("default")))
+
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* memory, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+void __libc_free(void* memory);
+
+static void count(void) {
+  n_heap_calls += is_watched;
+}
+
+SEEN void* malloc(size_t size) {
+  count();
+  return __libc_malloc(size);
+}
+
+SEEN void* calloc(size_t n, size_t size) {
+  count();
+  return __libc_calloc(n, size);
+}
+
+SEEN void* realloc(void* memory, size_t size) {
+  count();
+  return __libc_realloc(memory, size);
+}
+
+SEEN void* aligned_alloc(size_t alignment, size_t size) {
+  count();
+  return __libc_memalign(alignment, size);
+}
+
+SEEN int posix_memalign(void** memory, size_t alignment, size_t size) {
+  count();
+  *memory = __libc_memalign(alignment, size);
+  return *memory ? 0 : ENOMEM;
+}
+
+SEEN void free(void* memory) {
+  count();
+  __libc_free(memory);
+}
+
+#define CAN_WATCH 1
+#else
+#define CAN_WATCH 0
+#endif
+
+/* The four functions that a host may call on the audio thread, each watched. */
+typedef struct {
+  const LV2_Descriptor* descriptor;
+  LV2_Handle handle;
+} Watched;
+
+static Watched watch(Host* host) {
+  LilvInstance* const instance = host_instance(host);
+  return (Watched){lilv_instance_get_descriptor(instance), lilv_instance_get_handle(instance)};
+}
+
+static void watched_activate(Watched plugin) {
+  is_watched = true;
+  plugin.descriptor->activate(plugin.handle);
+  is_watched = false;
+}
+
+static void watched_deactivate(Watched plugin) {
+  is_watched = true;
+  if (plugin.descriptor->deactivate) {
+    plugin.descriptor->deactivate(plugin.handle);
+  }
+  is_watched = false;
+}
+
+static void watched_connect(Watched plugin, uint32_t port, void* data) {
+  is_watched = true;
+  plugin.descriptor->connect_port(plugin.handle, port, data);
+  is_watched = false;
+}
+
+static void watched_run(Watched plugin, uint32_t n_frames) {
+  is_watched = true;
+  plugin.descriptor->run(plugin.handle, n_frames);
+  is_watched = false;
+}
+
+/* What a run is given when the host's own run() is not used: its event atoms are written here. */
+typedef struct {
+  LV2_Atom_Sequence head;
+  LV2_Atom_Event event;
+  uint8_t bytes[8];
+} OneEvent;
+
+static OneEvent one_event(Host* host, uint32_t frame, unsigned status, unsigned a, unsigned b) {
+  return (OneEvent){
+      .head = {.atom = {sizeof(OneEvent) - sizeof(LV2_Atom),
+                        host_map(host, "http://lv2plug.in/ns/ext/atom#Sequence")}},
+      .event = {.time.frames = frame,
+                .body = {3, host_map(host, "http://lv2plug.in/ns/ext/midi#MidiEvent")}},
+      .bytes = {(uint8_t)status, (uint8_t)a, (uint8_t)b},
+  };
+}
+
+/* A run with one random message, and now and then a port moved, anywhere in its range. */
+static void run_something(Host* host, Watched plugin, Random* random) {
+  static const unsigned statuses[] = {0x90, 0x90, 0x90, 0x80, 0xB0, 0xE0, 0xF0};
+  static const unsigned controllers[] = {64, 64, 120, 121, 123, 7};
+  const unsigned status = statuses[random_below(random, 7)];
+  const unsigned a =
+      status == 0xB0 ? controllers[random_below(random, 6)] : random_below(random, 128);
+  OneEvent event =
+      one_event(host, random_below(random, BLOCK), status, a, random_below(random, 128));
+  const uint32_t port = random_below(random, host_n_ports(host));
+  HostRange range;
+  if (host_range(host, host_port_symbol(host, port), &range)) {
+    strings_set(host, host_port_symbol(host, port),
+                random_between(random, (double)range.min, (double)range.max));
+  }
+  watched_connect(plugin, 0, &event);
+  watched_run(plugin, random_below(random, BLOCK + 1));
+  watched_connect(plugin, 0, NULL);
+}
+
+static void the_audio_thread_takes_no_memory(void** state) {
+  (void)state;
+  if (!CAN_WATCH) {
+    skip();
+  }
+  Host* const host = strings_open(RATE, BLOCK);
+  const Watched plugin = watch(host);
+  Random random = random_start();
+  n_heap_calls = 0;
+  watched_activate(plugin);
+  for (int i = 0; i < N_RUNS; ++i) {
+    run_something(host, plugin, &random);
+    if (i % 100 == 99) {
+      watched_deactivate(plugin);
+      watched_activate(plugin);
+    }
+  }
+  watched_deactivate(plugin);
+  host_free(host);
+  print_message("%u calls of the heap\n", n_heap_calls);
+  assert_int_equal(n_heap_calls, 0);
+}
+
+/* The control: a library built as the plugin is, whose function calls the heap seven times. */
+static void the_watch_sees_a_planted_use_of_the_heap(void** state) {
+  (void)state;
+  if (!CAN_WATCH) {
+    skip();
+  }
+  char path[4096];
+  const char* const slash = strrchr(program, '/');
+  (void)snprintf(path, sizeof(path), "%.*splant_heap.so", slash ? (int)(slash - program + 1) : 0,
+                 program);
+  void* const library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+  if (!library) {
+    fail_msg("%s", dlerror());
+  }
+  void (*plant)(void) = NULL;
+  void* const symbol = dlsym(library, "plant_heap");
+  assert_non_null(symbol);
+  memcpy(&plant, &symbol, sizeof(plant));
+  n_heap_calls = 0;
+  is_watched = true;
+  plant();
+  is_watched = false;
+  const unsigned n_seen = n_heap_calls;
+  n_heap_calls = 0;
+  plant();
+  (void)dlclose(library);
+  print_message("%u calls of the heap\n", n_seen);
+  assert_int_equal(n_seen, 7);
+  assert_int_equal(n_heap_calls, 0);
+}
+
+#if defined(__SSE2__)
+
+/* Rounding, masks, flush to zero and denormals are zero: all but the flags of what has happened. */
+static const unsigned CONTROL_BITS = 0xFFC0;
+
+static void the_processor_is_left_as_it_was(void** state) {
+  (void)state;
+  static const unsigned settings[] = {0x0000, 0x8000, 0x0040, 0x8040, 0x2000};
+  const unsigned found = _mm_getcsr();
+  for (size_t i = 0; i < sizeof(settings) / sizeof(settings[0]); ++i) {
+    Host* const host = strings_open(RATE, BLOCK);
+    const Watched plugin = watch(host);
+    const unsigned before = (found & ~0xE040u) | settings[i];
+    OneEvent event = one_event(host, 5, 0x90, 60, 100);
+    watched_activate(plugin);
+    watched_connect(plugin, 0, &event);
+    for (int n = 0; n < 20; ++n) {
+      _mm_setcsr(before);
+      watched_run(plugin, n % 2 ? BLOCK : 0);
+      const unsigned after = _mm_getcsr();
+      _mm_setcsr(found);
+      assert_int_equal(after & CONTROL_BITS, before & CONTROL_BITS);
+    }
+    host_free(host);
+  }
+}
+
+#else
+
+static void the_processor_is_left_as_it_was(void** state) {
+  (void)state;
+  skip();
+}
+
+#endif
+
+static size_t n_subnormal(const float* samples, size_t n) {
+  size_t n_found = 0;
+  for (size_t i = 0; i < n; ++i) {
+    n_found += fpclassify(samples[i]) == FP_SUBNORMAL;
+  }
+  return n_found;
+}
+
+/* Down to nothing, on a host that flushes nothing, and at the lowest level. */
+static void a_note_dies_without_denormals(void** state) {
+  (void)state;
+  const float planted[2] = {1.0f, 1e-40f};
+  assert_int_equal(n_subnormal(planted, 2), 1);
+  Host* const host = strings_open(RATE, BLOCK);
+  Sound sound = sound_new(4 * RATE);
+  strings_set(host, "level", -60.0);
+  strings_set(host, "damping", 10.0);
+  for (uint32_t key = 30; key < 100; key += 7) {
+    strings_note_on(host, key, key, 1);
+    strings_note_off(host, key + RATE, key);
+  }
+  strings_run(host, &sound, 0, sound.n_frames, BLOCK);
+  assert_int_equal(n_subnormal(sound.left, sound.n_frames), 0);
+  assert_int_equal(n_subnormal(sound.right, sound.n_frames), 0);
+  assert_true(host_get(host, "sounding") == 0.0f);
+  sound_free(&sound);
+  host_free(host);
+}
+
+int main(int argc, char** argv) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_audio_thread_takes_no_memory),
+      cmocka_unit_test(the_watch_sees_a_planted_use_of_the_heap),
+      cmocka_unit_test(the_processor_is_left_as_it_was),
+      cmocka_unit_test(a_note_dies_without_denormals),
+  };
+  program = argc > 0 ? argv[0] : "";
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
