@@ -134,12 +134,15 @@ static void running_status_is_written_out(void** state) {
 static void what_libsmf_stumbles_over_costs_no_note(void** state) {
   (void)state;
   Read read;
-  char text[1 + 4 + 300 + sizeof(SONG_NOTE_LATER SONG_END) - 1];
+  char text[300];
   memset(text, 'x', sizeof(text));
-  memcpy(text, "\x00\xff\x01\x82\x2c", 5);
-  memcpy(text + 305, SONG_NOTE_LATER SONG_END, sizeof(text) - 305);
+  Bytes events = {0};
+  SONG_ADD(&events, "\x00\xff\x01\x82\x2c");
+  song_add(&events, text, sizeof(text));
+  SONG_ADD(&events, SONG_NOTE_LATER SONG_END);
   Bytes bytes = song_new(1, 3, SONG_TICKS);
-  song_add_track(&bytes, text, sizeof(text));
+  song_add_track(&bytes, (const char*)events.data, events.size);
+  bytes_clear(&events);
   SONG_ADD(&bytes, "XFIH\x00\x00\x00\x02??");
   SONG_ADD_TRACK(&bytes, "\x00\xf0\x03\x43\x12\x00"
                          "\x10\xf7\x02\x43\xf7" SONG_NOTE SONG_END);

@@ -27,6 +27,10 @@ static int take_option(Args* args, const char* word, int index) {
 }
 
 int args_next(Args* args) {
+  if (!args->has_no_more_options && *args->words && !strcmp(*args->words, "--")) {
+    args->has_no_more_options = true;
+    ++args->words;
+  }
   const char* const word = *args->words;
   if (!word) {
     return ARGS_END;
@@ -35,10 +39,6 @@ int args_next(Args* args) {
   args->value = word;
   if (args->has_no_more_options || word[0] != '-' || !word[1]) {
     return ARGS_OPERAND;
-  }
-  if (!strcmp(word, "--")) {
-    args->has_no_more_options = true;
-    return args_next(args);
   }
   for (int i = 0; args->options[i].name; ++i) {
     if (match(word, &args->options[i])) {

@@ -14,12 +14,17 @@ static int compare_presets(const void* a, const void* b) {
   return by_label ? by_label : strcmp(left->uri, right->uri);
 }
 
+static char* copy_string(const LilvNode* node) {
+  const char* const string = lilv_node_as_string(node);
+  return string ? strdup(string) : NULL;
+}
+
 /* A preset without a label is known by its URI. */
 static char* read_label(Host* host, const LilvNode* preset) {
   (void)lilv_world_load_resource(host->world, preset);
   LilvNode* const predicate = lilv_new_uri(host->world, LILV_NS_RDFS "label");
   LilvNode* const label = lilv_world_get(host->world, preset, predicate, NULL);
-  char* const copy = strdup(lilv_node_as_string(label ? label : preset));
+  char* const copy = copy_string(label ? label : preset);
   lilv_node_free(label);
   lilv_node_free(predicate);
   return copy;
@@ -30,10 +35,11 @@ static void read_presets(Host* host) {
   LilvNodes* const found = lilv_plugin_get_related(host->plugin, type);
   lilv_node_free(type);
   host->has_presets = true;
+  host->n_presets = 0;
   host->presets = calloc(lilv_nodes_size(found) + 1, sizeof(HostPreset));
   LILV_FOREACH(nodes, i, found) {
     const LilvNode* const node = lilv_nodes_get(found, i);
-    HostPreset preset = {strdup(lilv_node_as_string(node)), read_label(host, node)};
+    HostPreset preset = {copy_string(node), read_label(host, node)};
     if (host->presets && preset.uri && preset.label) {
       host->presets[host->n_presets++] = preset;
     } else {
@@ -42,7 +48,7 @@ static void read_presets(Host* host) {
     }
   }
   lilv_nodes_free(found);
-  if (host->n_presets > 1) {
+  if (host->presets && host->n_presets > 1) {
     qsort(host->presets, host->n_presets, sizeof(HostPreset), compare_presets);
   }
 }

@@ -14,9 +14,13 @@ static void poison(HostPort* port, uint32_t n_frames) {
 }
 
 static bool is_guard_whole(const HostPort* port, uint32_t n_frames) {
-  float guard[HOST_GUARD_FRAMES];
-  memset(guard, 0xFF, sizeof(guard));
-  return !memcmp(port->frames + n_frames, guard, sizeof(guard));
+  uint8_t guard[HOST_GUARD_FRAMES * sizeof(float)];
+  memcpy(guard, port->frames + n_frames, sizeof(guard));
+  bool is_whole = true;
+  for (size_t i = 0; i < sizeof(guard); ++i) {
+    is_whole = is_whole && guard[i] == 0xFF;
+  }
+  return is_whole;
 }
 
 static bool write_events(Host* host, HostPort* port, uint32_t n_frames, bool has_events) {

@@ -87,8 +87,9 @@ static bool take_frame(Play* play, uint32_t i) {
     return fail(play, "found sound that is not finite at %.6f s, expected numbers",
                 (double)frame / play->how->rate_hz);
   }
-  play->frames[2 * i] = left;
-  play->frames[2 * i + 1] = right;
+  float* const out = play->frames + 2 * (size_t)i;
+  out[0] = left;
+  out[1] = right;
   const float loudest = fmaxf(fabsf(left), fabsf(right));
   play->result->peak = fmaxf(play->result->peak, loudest);
   play->quiet = frame >= play->song_frames && loudest < SILENCE ? play->quiet + 1 : 0;
