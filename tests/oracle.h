@@ -20,6 +20,15 @@
 
 void oracle_assert_within(const char* what, double worst, double limit, const char* file, int line);
 
+/** re + j im: not every compiler has C11's CMPLX. */
+static inline double complex oracle_complex(double re, double im) {
+  union {
+    double parts[2];
+    double complex whole;
+  } const number = {.parts = {re, im}};
+  return number.whole;
+}
+
 /** The stiffness K = k1 L + k2 L² and the damping Z = z0 I + z1 L, both n × n. */
 void oracle_forces(StringCoefs coefs, uint32_t n, double* stiffness, double* damping);
 
