@@ -58,7 +58,8 @@ static bool is_float(const Chain* chain) {
 
 /* The coefficients as the loop has them. */
 static StringCoefs seen_by(const Chain* chain, StringCoefs coefs) {
-  const StringCoefs rounded = {(float)coefs.k1, (float)coefs.k2, (float)coefs.z0, (float)coefs.z1};
+  const StringCoefs rounded = {(double)(float)coefs.k1, (double)(float)coefs.k2,
+                               (double)(float)coefs.z0, (double)(float)coefs.z1};
   return is_float(chain) ? rounded : coefs;
 }
 
@@ -66,8 +67,8 @@ static void place_noise(Chain* chain, Random* random, double* x, double* u) {
   for (uint32_t i = 0; i < chain->n_masses; ++i) {
     chain_place(chain, i, (float)random_between(random, -1.0, 1.0),
                 (float)random_between(random, -1.0, 1.0));
-    x[i] = chain_position(chain, i);
-    u[i] = chain_velocity(chain, i);
+    x[i] = (double)chain_position(chain, i);
+    u[i] = (double)chain_velocity(chain, i);
   }
 }
 
@@ -195,8 +196,8 @@ static void kernels_agree(void** state) {
 
 static void read_state(const Chain* chain, double* x, double* u) {
   for (uint32_t i = 0; i < chain->n_masses; ++i) {
-    x[i] = chain_position(chain, i);
-    u[i] = chain_velocity(chain, i);
+    x[i] = (double)chain_position(chain, i);
+    u[i] = (double)chain_velocity(chain, i);
   }
 }
 
