@@ -101,7 +101,8 @@ static double snr_db(Chain* chain, StringCoefs coefs, double seconds, double rat
 }
 
 static StringCoefs rounded(StringCoefs coefs) {
-  return (StringCoefs){(float)coefs.k1, (float)coefs.k2, (float)coefs.z0, (float)coefs.z1};
+  return (StringCoefs){(double)(float)coefs.k1, (double)(float)coefs.k2, (double)(float)coefs.z0,
+                       (double)(float)coefs.z1};
 }
 
 /* A string, and whether it is to be stepped in doubles. */

@@ -59,9 +59,11 @@ static void largest_step_brackets_stability(void** state) {
 
 /* The larger root of the characteristic polynomial, in extended precision where there is any. */
 static long double spectral_radius(Pole pole) {
-  const long double half = 0.5L * ((long double)pole.a + pole.g - 2.0L);
-  const long double square = half * half - (1.0L - pole.g);
-  return square < 0.0L ? sqrtl(1.0L - pole.g) : fabsl(half) + sqrtl(square);
+  const long double a = (long double)pole.a;
+  const long double g = (long double)pole.g;
+  const long double half = 0.5L * (a + g - 2.0L);
+  const long double square = half * half - (1.0L - g);
+  return square < 0.0L ? sqrtl(1.0L - g) : fabsl(half) + sqrtl(square);
 }
 
 static void verdict_is_the_spectral_radius(void** state) {
