@@ -7,7 +7,18 @@
   X(OK, "no error")                                                                                \
   X(BAD_ARGUMENT, "an argument is out of its range")                                               \
   X(NO_MEMORY, "out of memory")                                                                    \
-  X(UNSTABLE, "no stable system of that many masses has this pitch and decay")
+  X(UNSTABLE, "no stable system of that many masses has this pitch and decay")                     \
+  X(BAD_MASS, "a mass is not a number above zero")                                                 \
+  X(BAD_LINK, "a stiffness or damping is not a number from zero up")                               \
+  X(NO_SUCH_POINT, "a spring or damper ends at a point that is not there")                         \
+  X(SELF_LINK, "a spring or damper joins a point to itself")                                       \
+  X(EMPTY, "there is no mass")                                                                     \
+  X(FREE, "a part hangs on no grounded point, so it can drift away")                               \
+  X(NO_SUCH_MODE, "there is no such mode")                                                         \
+  X(OVERDAMPED, "the mode ceases to vibrate before it dies as fast as that")                       \
+  X(UNREACHABLE, "the pitch lies beyond half the rate, or nothing damps the mode that much")       \
+  X(ILL_SCALED, "its numbers differ too widely for the arithmetic")                                \
+  X(NO_CONVERGENCE, "an iteration did not converge")
 
 #define STATUS_ENUM(name, text) STATUS_##name,
 typedef enum { STATUS_LIST(STATUS_ENUM) STATUS_COUNT } Status;
