@@ -1,0 +1,259 @@
+/* Every preset loads, says what it is, is in range and in tune, and sounds like no other; and what
+ * a session saves is what it gets back. */
+#include "tests/measure.h"
+#include "tests/oracle.h"
+#include "tests/random.h"
+#include "tests/strings_host.h"
+
+#include <lv2/core/lv2.h>
+#include <lv2/presets/presets.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { RATE = 48000, BLOCK = 1024, LEAST_PRESETS = 6, MOST_PRESETS = 64, N_FRAMES = 2 * RATE };
+
+#define RDFS "http://www.w3.org/2000/01/rdf-schema#"
+
+static const uint32_t keys[] = {40, 60, 76};
+
+static Host* open_host(void) {
+  return strings_open(RATE, BLOCK);
+}
+
+static void there_are_presets(void** state) {
+  (void)state;
+  Host* const host = open_host();
+  print_message("%u presets\n", host_n_presets(host));
+  assert_true(host_n_presets(host) >= LEAST_PRESETS && host_n_presets(host) <= MOST_PRESETS);
+  host_free(host);
+}
+
+/* Each port that a preset sets is a control input, and has the value, in range, once it is loaded.
+ * Those at their default are counted in `n_default`. Returns the sum of 2^index: which they are. */
+static uint64_t check_ports(Host* host, const LilvNode* preset, unsigned* n_default) {
+  LilvWorld* const world = host_world(host);
+  LilvNode* const port_key = lilv_new_uri(world, LV2_CORE__port);
+  LilvNode* const symbol_key = lilv_new_uri(world, LV2_CORE__symbol);
+  LilvNode* const value_key = lilv_new_uri(world, LV2_PRESETS__value);
+  LilvNodes* const ports = lilv_world_find_nodes(world, preset, port_key, NULL);
+  uint64_t set = 0;
+  *n_default = 0;
+  LILV_FOREACH(nodes, i, ports) {
+    const LilvNode* const port = lilv_nodes_get(ports, i);
+    LilvNode* const symbol = lilv_world_get(world, port, symbol_key, NULL);
+    LilvNode* const value = lilv_world_get(world, port, value_key, NULL);
+    HostRange range;
+    assert_non_null(symbol);
+    assert_non_null(value);
+    assert_true(host_range(host, lilv_node_as_string(symbol), &range));
+    const float number = lilv_node_as_float(value);
+    assert_true(number >= range.min && number <= range.max);
+    assert_true(!range.is_integer || number == floorf(number));
+    assert_true(host_get(host, lilv_node_as_string(symbol)) == number);
+    set |= UINT64_C(1) << host_port_index(host, lilv_node_as_string(symbol));
+    *n_default += number == range.initial;
+    lilv_node_free(symbol);
+    lilv_node_free(value);
+  }
+  lilv_nodes_free(ports);
+  lilv_node_free(port_key);
+  lilv_node_free(symbol_key);
+  lilv_node_free(value_key);
+  return set;
+}
+
+static void check_comment(Host* host, const LilvNode* preset) {
+  LilvNode* const predicate = lilv_new_uri(host_world(host), RDFS "comment");
+  LilvNode* const comment = lilv_world_get(host_world(host), preset, predicate, NULL);
+  assert_non_null(comment);
+  assert_true(strlen(lilv_node_as_string(comment)) > 0);
+  lilv_node_free(comment);
+  lilv_node_free(predicate);
+}
+
+/* All set the same ports, or the sound of one would depend on the one before it. */
+static void every_preset_says_what_it_is_and_is_in_range(void** state) {
+  (void)state;
+  uint64_t all_set = 0;
+  Host* const list = open_host();
+  for (uint32_t i = 0; i < host_n_presets(list); ++i) {
+    Host* const host = open_host();
+    const char* const uri = host_preset_uri(list, i);
+    const char* const label = host_preset_label(list, i);
+    print_message("%s\n", label);
+    assert_true(strlen(label) > 0 && strcmp(label, uri) != 0);
+    for (uint32_t other = 0; other < i; ++other) {
+      assert_string_not_equal(label, host_preset_label(list, other));
+    }
+    assert_true(host_preset(host, uri));
+    LilvNode* const preset = lilv_new_uri(host_world(host), uri);
+    check_comment(host, preset);
+    unsigned n_default = 0;
+    const uint64_t set = check_ports(host, preset, &n_default);
+    assert_true(n_default < (unsigned)__builtin_popcountll(set));
+    assert_true(i == 0 || set == all_set);
+    all_set = set;
+    assert_true(host_get(host, "enabled") == 1.0f && host_get(host, "freewheel") == 0.0f);
+    lilv_node_free(preset);
+    host_free(host);
+  }
+  host_free(list);
+}
+
+static Sound play(Host* host, uint32_t key, uint32_t velocity) {
+  Sound sound = sound_new(N_FRAMES);
+  strings_restart(host);
+  strings_note_on(host, 0, key, velocity);
+  strings_run(host, &sound, 0, N_FRAMES, BLOCK);
+  return sound;
+}
+
+/* A label and a URI load the same. */
+static void label_and_uri_name_the_same_preset(void** state) {
+  (void)state;
+  Host* const by_label = open_host();
+  Host* const by_uri = open_host();
+  for (uint32_t i = 0; i < host_n_presets(by_uri); ++i) {
+    assert_true(host_preset(by_label, host_preset_label(by_label, i)));
+    assert_true(host_preset(by_uri, host_preset_uri(by_uri, i)));
+    Sound a = play(by_label, 50, 100);
+    Sound b = play(by_uri, 50, 100);
+    assert_true(sound_is_same(&a, &b));
+    sound_free(&a);
+    sound_free(&b);
+  }
+  host_free(by_label);
+  host_free(by_uri);
+}
+
+/* What measure_tone() needs is 12 periods in a decay. */
+static ToneError check_key(Host* host, uint32_t key, double* quietest, double* loudest) {
+  const Tone asked = strings_tone(host, key, 0.0);
+  const size_t from = (size_t)(2.0 * RATE / asked.f0_hz);
+  Sound sound = play(host, key, 127);
+  const double left = measure_peak(sound.left, N_FRAMES);
+  const double right = measure_peak(sound.right, N_FRAMES);
+  *quietest = fmin(*quietest, fmin(left, right));
+  *loudest = fmax(*loudest, fmax(left, right));
+  assert_true(isfinite(left) && isfinite(right));
+  assert_true(asked.f0_hz * asked.tau_s >= 12.0);
+  const ToneError error = strings_measure(&sound, RATE, from, N_FRAMES, asked);
+  sound_free(&sound);
+  return error;
+}
+
+/* Audible, above −40 dB, and not clipped: below 0 dB. */
+static void every_preset_sounds_and_is_in_tune(void** state) {
+  (void)state;
+  Host* const host = open_host();
+  ToneError worst = {0};
+  for (uint32_t i = 0; i < host_n_presets(host); ++i) {
+    double quietest = HUGE_VAL;
+    double loudest = 0.0;
+    assert_true(host_preset(host, host_preset_uri(host, i)));
+    for (int k = 0; k < 3; ++k) {
+      worst = strings_worse(worst, check_key(host, keys[k], &quietest, &loudest));
+    }
+    print_message("%-20s %5.1f to %5.1f dB\n", host_preset_label(host, i), 20.0 * log10(quietest),
+                  20.0 * log10(loudest));
+    assert_true(quietest > 0.01 && loudest < 1.0);
+  }
+  strings_assert_exact("all presets", worst);
+  host_free(host);
+}
+
+/* How alike two sounds are at any loudness: 1 − the correlation, or 2 for opposites. */
+static double distance(const Sound* a, const Sound* b) {
+  double ab = 0.0;
+  double aa = 0.0;
+  double bb = 0.0;
+  for (size_t i = 0; i < N_FRAMES; ++i) {
+    ab += (double)a->left[i] * (double)b->left[i];
+    aa += (double)a->left[i] * (double)a->left[i];
+    bb += (double)b->left[i] * (double)b->left[i];
+  }
+  return 1.0 - ab / sqrt(aa * bb);
+}
+
+static void no_two_presets_sound_alike(void** state) {
+  (void)state;
+  Host* const host = open_host();
+  Sound sounds[MOST_PRESETS];
+  const uint32_t n = host_n_presets(host);
+  double least = 2.0;
+  for (uint32_t i = 0; i < n; ++i) {
+    assert_true(host_preset(host, host_preset_uri(host, i)));
+    sounds[i] = play(host, 52, 100);
+    for (uint32_t k = 0; k < i; ++k) {
+      least = fmin(least, distance(&sounds[i], &sounds[k]));
+    }
+  }
+  print_message("the nearest two correlate to %g\n", 1.0 - least);
+  assert_true(least > 0.01);
+  for (uint32_t i = 0; i < n; ++i) {
+    sound_free(&sounds[i]);
+  }
+  host_free(host);
+}
+
+static void set_at_random(Host* host, Random* random) {
+  HostRange range;
+  for (uint32_t i = 0; i < host_n_ports(host); ++i) {
+    const char* const symbol = host_port_symbol(host, i);
+    if (host_range(host, symbol, &range) && strcmp(symbol, "enabled") != 0) {
+      const double value = random_between(random, (double)range.min, (double)range.max);
+      const double digits = range.is_integer ? 1.0 : 1e6; /* Turtle has eight behind the point */
+      strings_set(host, symbol, round(value * digits) / digits);
+    }
+  }
+  strings_set(host, "pickup", 0.3);
+  strings_set(host, "level", -3.0);
+}
+
+/* From the one instance to another, as text. */
+static void a_saved_state_sounds_the_same(void** state) {
+  (void)state;
+  Random random = random_start();
+  for (int i = 0; i < 5; ++i) {
+    Host* const first = open_host();
+    Host* const second = open_host();
+    set_at_random(first, &random);
+    LilvState* const saved = host_save_state(first);
+    assert_non_null(saved);
+    char* const turtle = host_state_to_string(first, saved);
+    assert_non_null(turtle);
+    LilvState* const read = host_state_from_string(second, turtle);
+    assert_non_null(read);
+    host_restore_state(second, read);
+    Sound a = play(first, 57, 90);
+    Sound b = play(second, 57, 90);
+    assert_true(measure_peak(a.left, N_FRAMES) > 1e-3);
+    assert_true(sound_is_same(&a, &b));
+    sound_free(&a);
+    sound_free(&b);
+    lilv_free(turtle);
+    lilv_state_free(saved);
+    lilv_state_free(read);
+    host_free(first);
+    host_free(second);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(there_are_presets),
+      cmocka_unit_test(every_preset_says_what_it_is_and_is_in_range),
+      cmocka_unit_test(label_and_uri_name_the_same_preset),
+      cmocka_unit_test(every_preset_sounds_and_is_in_tune),
+      cmocka_unit_test(no_two_presets_sound_alike),
+      cmocka_unit_test(a_saved_state_sounds_the_same),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
