@@ -14,12 +14,9 @@ Sources are found by where they lie, so that a new one needs no line here:
 
 import json
 import os
-import re
-import signal
 import subprocess
-import time
-from concurrent.futures import ThreadPoolExecutor
 
+from tests import runner
 from waflib import Build, Configure, Context, Errors, Options
 
 APPNAME = 'hooke'
@@ -53,9 +50,6 @@ SYSTEM_PREFIXES = ['/usr', '/usr/local', os.path.expanduser('~/.local')]
 
 # Left out of an archive made where git cannot say what is tracked.
 UNTRACKED = ['build', '.git', '.waf-cache', '.lock-waf*', 'hooke-*.tar.*', '**/__pycache__']
-
-# The exit status of a test that could not run here.
-SKIP = 77
 
 # What is fixed by `configure` and cannot be changed by a later command.
 CONFIGURE_OPTIONS = ['prefix', 'lv2dir', 'user', 'debug', 'sanitize', 'werror']
@@ -313,28 +307,14 @@ def run_environment(bld):
     return env
 
 
-# Those that measure speed run alone, after all others.
 def run_tests(bld):
     programs = test_programs(bld)
-    alone = [program for program in programs if program[0].startswith('test_speed')]
-    side_by_side = [program for program in programs if program not in alone]
-
-    running = set()
-
-    def run(program):
-        result = run_test(bld, running, *program)
-        report(result)
-        return result
-
-    with ThreadPoolExecutor(bld.jobs) as pool:
-        try:
-            results = list(pool.map(run, side_by_side))
-        except KeyboardInterrupt:
-            for process in list(running):
-                kill(process)
-            raise
-    results += [run(program) for program in alone]
-    close(bld, results)
+    results = runner.run_all(programs, bld.bldnode.abspath(), run_environment(bld), bld.jobs, bld.options.timeout)
+    failed = [result['name'] for result in results if result['counts']['FAILED']]
+    if failed:
+        bld.fatal('failed: ' + ' '.join(failed))
+    if not any(result['counts'][word] for result in results for word in ['PASSED', 'SKIPPED']):
+        bld.fatal('no test ran')
 
 
 def test_programs(bld):
@@ -342,77 +322,6 @@ def test_programs(bld):
     programs = [(name, bld.bldnode.make_node('tests/' + name).abspath()) for name in compiled]
     programs += [(node.name, node.abspath()) for node in bld.path.ant_glob('tests/test_*.sh')]
     return [program for program in programs if bld.options.only in program[0]]
-
-
-# The output goes to a file rather than a pipe: a pipe held open by a stray child would never end.
-def run_test(bld, running, name, path):
-    log = bld.bldnode.make_node('tests/%s.log' % name)
-    log.parent.mkdir()
-    start = time.monotonic()
-    with open(log.abspath(), 'wb') as output:
-        process = subprocess.Popen([path], cwd=bld.bldnode.abspath(), env=run_environment(bld),
-                                   stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-                                   start_new_session=True)
-        running.add(process)
-        try:
-            code = process.wait(bld.options.timeout)
-        except subprocess.TimeoutExpired:
-            code = None
-        finally:
-            running.remove(process)
-            if process.returncode is None:
-                kill(process)
-                process.wait()
-    with open(log.abspath(), encoding='utf-8', errors='replace') as output:
-        return judge(name, code, output.read(), time.monotonic() - start)
-
-
-# With all that it has started.
-def kill(process):
-    os.killpg(process.pid, signal.SIGKILL)
-
-
-# Count the single tests. However a program ended, it is never taken for a success that it was not.
-def judge(name, code, output, seconds):
-    counts = {word: cmocka_count(word, output) for word in ['PASSED', 'FAILED', 'SKIPPED']}
-    if name.endswith('.sh'):
-        counts = {'PASSED': int(code == 0), 'FAILED': 0, 'SKIPPED': 0}
-    if code == SKIP and not any(counts.values()):
-        counts['SKIPPED'], code = 1, 0
-    trouble = ''
-    if code is None:
-        trouble = 'timed out'
-    elif code < 0:
-        trouble = 'killed by ' + signal.Signals(-code).name
-    elif code > 0:
-        trouble = 'exit status %d' % code
-    elif not any(counts.values()):
-        trouble = 'ran no test'
-    if trouble:
-        counts['FAILED'] = max(1, counts['FAILED'])
-    return {'name': name, 'counts': counts, 'trouble': trouble, 'output': output, 'seconds': seconds}
-
-
-def cmocka_count(word, output):
-    found = re.findall(r'\[ +%s +\] (?:.*: )?(\d+) test\(s\)' % word, output)
-    return sum(int(number) for number in found)
-
-
-def report(result):
-    counts = ', '.join('%d %s' % (n, word.lower()) for word, n in result['counts'].items() if n)
-    failed = result['counts']['FAILED']
-    line = '%-28s %-32s %7.2f s  %s' % (result['name'], counts, result['seconds'], result['trouble'])
-    print(line.rstrip() + ('\n' + result['output'].rstrip() if failed else ''), flush=True)
-
-
-def close(bld, results):
-    passed, failed, skipped = [sum(r['counts'][word] for r in results) for word in ['PASSED', 'FAILED', 'SKIPPED']]
-    line = '%d passed, %d failed' % (passed, failed)
-    print(line + (', %d skipped' % skipped if skipped else ''), flush=True)
-    if failed:
-        bld.fatal('failed: ' + ' '.join(r['name'] for r in results if r['counts']['FAILED']))
-    if not passed + skipped:
-        bld.fatal('no test ran')
 
 
 # Packing
