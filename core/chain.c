@@ -145,15 +145,15 @@ void chain_push(Chain* chain, uint32_t i, float u) {
 }
 
 double chain_amplitude(const Chain* chain, double a1) {
-  double xx = 0.0;
-  double uu = 0.0;
+  const bool is_moving = a1 < 4.0;
+  double energy = 0.0;
   for (uint32_t i = 0; i < chain->n_masses; ++i) {
     const double x = position(chain, i);
-    const double u = velocity(chain, i);
-    xx += x * x;
-    uu += u * u;
+    const double u = is_moving ? velocity(chain, i) : 0.0;
+    energy += x * (x - u) + u * u / a1;
   }
-  return sqrt(2.0 * (xx + uu / a1) / (chain->n_masses + 1.0));
+  const double half_step = is_moving ? 1.0 - 0.25 * a1 : 1.0;
+  return sqrt(2.0 * energy / (half_step * (chain->n_masses + 1.0)));
 }
 
 /* Run on until the coefficients are there, or the frames are over; the frames that were run. */

@@ -91,10 +91,14 @@ void chain_place(Chain* chain, uint32_t i, float x, float u);
 void chain_push(Chain* chain, uint32_t i, float u);
 
 /**
-   The amplitude of the fundamental if all the energy were in it: √(2/(N + 1) Σ (x² + u²/a1)). Never
-   less than the fundamental's own.
+   The amplitude of the fundamental if all the energy were in it:
 
-   @param a1  Its a, > 0; INFINITY: displacement alone
+       √(2/(N + 1) Σ (x² − x u + u²/a1) / (1 − a1/4)),
+
+   the scheme's own energy, for x and u are half a step apart.  Without damping it is constant to
+   rounding where there is nothing but the fundamental, and never less than the fundamental's own.
+
+   @param a1  The fundamental's a, 0 < a1 < 4; HUGE_VAL: displacement alone, √(2/(N + 1) Σ x²)
 */
 double chain_amplitude(const Chain* chain, double a1);
 

@@ -7,6 +7,10 @@ static const double PI = 3.14159265358979323846;
 /* Amplitude, of the loudest, at which a string has died away. */
 static const double SILENCE = 1e-6;
 
+/* Amplitude at which it has in any case, should it have been fast to die before it was looked at.
+ */
+static const double STILLNESS = 1e-20;
+
 /* τ of a string that is choked [s]. */
 static const double CHOKE_S = 0.005;
 
@@ -124,7 +128,7 @@ void harp_string_retune(HarpString* string,
 
 void harp_string_doze(HarpString* string) {
   string->loudest = fmax(string->loudest, chain_amplitude(&string->chain, HUGE_VAL));
-  if (chain_amplitude(&string->chain, string->a1) < SILENCE * string->loudest) {
+  if (chain_amplitude(&string->chain, string->a1) < fmax(SILENCE * string->loudest, STILLNESS)) {
     harp_string_sleep(string);
   }
 }
