@@ -132,6 +132,18 @@ Status network_find_parts(const Network* network, uint32_t* part, uint32_t* n_pa
 */
 Status network_find_free(const Network* network, NetworkFault* fault);
 
+/**
+   Fill the matrices of a checked network, over its n = n_masses masses in the order of their
+   points; n × n, column-major, ld = n.
+
+   @param[out] mass_kg    The diagonal of M [kg], n
+   @param[out] stiffness  K [N/m]; NULL if not wanted
+   @param[out] damping    Z [kg/s]; NULL if not wanted
+   @return STATUS_OK or STATUS_NO_MEMORY
+*/
+Status
+network_matrices(const Network* network, double* mass_kg, double* stiffness, double* damping);
+
 /** Multiply every stiffness and every damping; both factors ≥ 0 and finite. */
 void network_scale(Network* network, double stiffness_factor, double damping_factor);
 

@@ -1,9 +1,11 @@
-/* What can be said of a network without stepping it: whether it is well formed, and its parts. */
+/* What can be said of a network without stepping it: whether it is well formed, its parts, its
+ * matrices. */
 
 #include "core/network.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static Status check_link(const Network* network, NetworkLink link) {
   if (!(link.value >= 0.0) || !isfinite(link.value)) {
@@ -78,6 +80,23 @@ static void mark_tied(const Network* network, const uint32_t* root, bool* is_tie
   }
 }
 
+static void fill_links(const NetworkLinks* links, const uint32_t* row, size_t n, double* matrix) {
+  memset(matrix, 0, n * n * sizeof(double));
+  for (uint32_t l = 0; l < links->n; ++l) {
+    const NetworkLink link = links->link[l];
+    const size_t ends[2] = {row[link.from], row[link.to]};
+    for (int e = 0; e < 2; ++e) {
+      if (ends[e] != UINT32_MAX) {
+        matrix[ends[e] + ends[e] * n] += link.value;
+      }
+    }
+    if (ends[0] != UINT32_MAX && ends[1] != UINT32_MAX) {
+      matrix[ends[0] + ends[1] * n] -= link.value;
+      matrix[ends[1] + ends[0] * n] -= link.value;
+    }
+  }
+}
+
 Status network_check(Network* network, NetworkFault* fault) {
   NetworkFault found = {NETWORK_POINT, 0};
   Status status = network->n_masses ? STATUS_OK : STATUS_EMPTY;
@@ -141,4 +160,28 @@ Status network_find_free(const Network* network, NetworkFault* fault) {
   free(root);
   free(is_tied);
   return status;
+}
+
+Status
+network_matrices(const Network* network, double* mass_kg, double* stiffness, double* damping) {
+  uint32_t* const row = malloc((network->n_points + (size_t)1) * sizeof(uint32_t));
+  if (!row) {
+    return STATUS_NO_MEMORY;
+  }
+  uint32_t n = 0;
+  for (uint32_t p = 0; p < network->n_points; ++p) {
+    row[p] = UINT32_MAX;
+    if (!network->is_ground[p]) {
+      mass_kg[n] = network->mass_kg[p];
+      row[p] = n++;
+    }
+  }
+  if (stiffness) {
+    fill_links(&network->springs, row, n, stiffness);
+  }
+  if (damping) {
+    fill_links(&network->dampers, row, n, damping);
+  }
+  free(row);
+  return STATUS_OK;
 }

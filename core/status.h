@@ -15,7 +15,6 @@
   X(EMPTY, "there is no mass")                                                                     \
   X(FREE, "a part hangs on no grounded point, so it can drift away")                               \
   X(NO_SUCH_MODE, "there is no such mode")                                                         \
-  X(OVERDAMPED, "the mode ceases to vibrate before it dies as fast as that")                       \
   X(UNREACHABLE, "the pitch lies beyond half the rate, or nothing damps the mode that much")       \
   X(ILL_SCALED, "its numbers differ too widely for the arithmetic")                                \
   X(NO_CONVERGENCE, "an iteration did not converge")
