@@ -172,10 +172,34 @@ static void bent_note_keeps_masses_and_is_in_tune(void** state) {
   harp_free(harp);
 }
 
+/* A damper adds to what the air takes; what sits between the masses stays as it was. */
+static void damper_leaves_the_loss_between_masses(void** state) {
+  (void)state;
+  double worst = 0.0;
+  Harp* const harp = harp_new(48000.0);
+  assert_non_null(harp);
+  for (double loss = 0.25; loss <= 1.0; loss += 0.25) {
+    Patch patch = plain;
+    patch.loss = loss;
+    patch.max_masses = 40;
+    harp_reset(harp);
+    harp_set_patch(harp, &patch, 0);
+    harp_note_on(harp, 57, 100);
+    const StringCoefs open = harp->strings[57].chain.goal;
+    harp_note_off(harp, 57);
+    const StringCoefs damped = harp->strings[57].chain.goal;
+    worst = fmax(worst, fabs(damped.z1 / open.z1 - 1.0));
+    assert_true(damped.z0 > open.z0);
+  }
+  harp_free(harp);
+  assert_within("damping between masses, relative", worst, 1e-12);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(change_of_patch_makes_no_step),
       cmocka_unit_test(bent_note_keeps_masses_and_is_in_tune),
+      cmocka_unit_test(damper_leaves_the_loss_between_masses),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
