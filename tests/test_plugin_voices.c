@@ -185,6 +185,27 @@ static void what_has_died_is_exact_zeros(void** state) {
   host_free(host);
 }
 
+/* Dead long before the first look at whether they are, when nothing is left of them but the
+ * smallest floats. */
+static void the_shortest_notes_end_too(void** state) {
+  static const double rates_hz[] = {8000.0, 44100.0, 192000.0};
+  (void)state;
+  for (int r = 0; r < 3; ++r) {
+    Host* const host = strings_open(rates_hz[r], BLOCK);
+    Sound sound = sound_new((size_t)rates_hz[r]);
+    strings_set(host, "damping", 200.0);
+    strings_set(host, "tracking", 1.0);
+    for (uint32_t key = 30; key < N_KEYS; ++key) {
+      strings_note_on(host, key, key, 1 + key % 127);
+    }
+    strings_run(host, &sound, 0, sound.n_frames, BLOCK);
+    assert_true(measure_peak(sound.left, sound.n_frames) > 0.0);
+    assert_true(host_get(host, "sounding") == 0.0f);
+    sound_free(&sound);
+    host_free(host);
+  }
+}
+
 static void masses_hold_from_the_next_pluck_at_rest(void** state) {
   (void)state;
   Host* const host = strings_open(RATE, BLOCK);
@@ -270,6 +291,7 @@ int main(void) {
       cmocka_unit_test(every_key_below_nyquist_has_a_string_of_its_own),
       cmocka_unit_test(a_key_at_or_above_nyquist_is_silent),
       cmocka_unit_test(what_has_died_is_exact_zeros),
+      cmocka_unit_test(the_shortest_notes_end_too),
       cmocka_unit_test(masses_hold_from_the_next_pluck_at_rest),
       cmocka_unit_test(a_note_is_neither_weak_nor_clipped),
       cmocka_unit_test(velocity_makes_it_louder_and_a_little_brighter),
