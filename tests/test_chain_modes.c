@@ -243,7 +243,8 @@ static void run_silently(Chain* chain, uint32_t n_frames) {
 static void amplitude_is_the_fundamentals(void** state) {
   (void)state;
   double worst = 0.0;
-  for (double f0_hz = 50.0; f0_hz < 23000.0; f0_hz *= 1.3) {
+  for (int step = 0; step <= 23; ++step) {
+    const double f0_hz = 50.0 * pow(1.3, step);
     const TuningTarget target = {.rate_hz = 48000.0, .tone = {f0_hz, HUGE_VAL}};
     const uint32_t n = tuning_max_masses(&target, 50);
     StringCoefs coefs = {0};

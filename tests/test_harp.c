@@ -122,8 +122,8 @@ static void dead_string_sleeps_in_exact_zeros(void** state) {
     assert_true(chain_velocity(&string->chain, i) == 0.0f);
   }
   assert_true(harp_report(harp).n_masses == 0 && harp_report(harp).headroom == 1.0);
-  run_for(harp, 1000);
-  assert_true(peak_of(left, 1000) == 0.0 && peak_of(right, 1000) == 0.0);
+  run_for(harp, 99);
+  assert_true(peak_of(left, 99) + peak_of(right, 99) == 0.0);
   harp_free(harp);
 }
 
@@ -133,7 +133,8 @@ static void no_string_sleeps_before_120_db(void** state) {
   double worst = 0.0;
   Harp* const harp = new_harp(48000.0, &plain);
   for (size_t k = 0; k < sizeof(keys) / sizeof(keys[0]); ++k) {
-    for (double damping = 6.0; damping < 60.0; damping *= keys[k] < 108 ? 3.0 : 1.08) {
+    for (int step = 0; step < 30; step += keys[k] < 108 ? 14 : 1) {
+      const double damping = 6.0 * pow(1.08, step);
       const HarpString* const string = &harp->strings[keys[k]];
       Patch patch = plain;
       patch.damping_per_s = damping;
@@ -275,9 +276,8 @@ static void all_sound_off_is_silence_in_a_moment(void** state) {
   run_for(harp, 9600);
   assert_int_equal(harp_report(harp).n_strings, 0);
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    assert_false(harp->keys[key].is_down || harp->keys[key].is_held);
+    assert_false(harp->keys[key].is_down || harp->keys[key].is_held || harp->is_pedal_down);
   }
-  assert_false(harp->is_pedal_down);
   harp_free(harp);
 }
 

@@ -178,9 +178,9 @@ static void damper_leaves_the_loss_between_masses(void** state) {
   double worst = 0.0;
   Harp* const harp = harp_new(48000.0);
   assert_non_null(harp);
-  for (double loss = 0.25; loss <= 1.0; loss += 0.25) {
+  for (int step = 1; step <= 4; ++step) {
     Patch patch = plain;
-    patch.loss = loss;
+    patch.loss = 0.25 * step;
     patch.max_masses = 40;
     harp_reset(harp);
     harp_set_patch(harp, &patch, 0);

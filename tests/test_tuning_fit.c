@@ -61,7 +61,8 @@ static StringCoefs string_with(const TuningTarget* target, uint32_t n_masses, Gi
 /* Whether nothing on the straight way from `given` to `wanted` is safe, but where it begins. */
 static bool
 is_nothing_safe_between(const TuningTarget* target, uint32_t n_masses, Given given, Given wanted) {
-  for (double share = 1e-7; share <= 1.0; share *= 1.25) {
+  for (int step = 0; step <= 72; ++step) {
+    const double share = pow(1.25, -step);
     const Given between = {
         given.bending + share * (wanted.bending - given.bending),
         given.loss + share * (wanted.loss - given.loss),
