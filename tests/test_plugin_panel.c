@@ -215,6 +215,58 @@ static void what_rings_has_the_new_pitch_and_decay_exactly(void** state) {
   strings_assert_exact("stiffness and loss, which leave both alone", worst);
 }
 
+/* Off, it is choked and keys do nothing; on again, it is as new. */
+static void off_is_silent_and_on_is_as_before(void** state) {
+  enum { TENTH = RATE / 10 };
+  (void)state;
+  Host* const host = strings_open(RATE, BLOCK);
+  Sound sound = sound_new(TENTH);
+  Sound again = sound_new(TENTH);
+  strings_set(host, "release", 10.0);
+  strings_note_on(host, 0, 45, 100);
+  strings_run(host, &sound, 0, TENTH, BLOCK);
+  strings_set(host, "enabled", 0.0);
+  strings_run(host, &again, 0, TENTH, BLOCK);
+  strings_note_on(host, 5, 50, 127);
+  strings_run(host, &again, 0, TENTH, BLOCK);
+  assert_true(measure_peak(again.left, TENTH) < 1e-5 * measure_peak(sound.left, TENTH));
+  assert_true(host_get(host, "sounding") == 0.0f);
+  strings_set(host, "enabled", 1.0);
+  strings_run(host, &again, 0, TENTH, BLOCK);
+  assert_true(measure_peak(again.left, TENTH) == 0.0);
+  strings_note_on(host, 0, 45, 100);
+  strings_run(host, &again, 0, TENTH, BLOCK);
+  assert_true(sound_is_same(&sound, &again));
+  sound_free(&sound);
+  sound_free(&again);
+  host_free(host);
+}
+
+static Sound play_at(double pickup, double spread) {
+  Host* const host = strings_open(RATE, BLOCK);
+  strings_set(host, "pickup", pickup);
+  Sound sound = play_change(host, BLOCK, "spread", spread, spread);
+  host_free(host);
+  return sound;
+}
+
+/* Without spread both sides are one, and with it each is what one pickup is in its place. */
+static void each_side_is_a_pickup_in_its_place(void** state) {
+  (void)state;
+  const size_t size = N_FRAMES * sizeof(float);
+  Sound one = play_at(0.1875, 0.0);
+  Sound other = play_at(0.3125, 0.0);
+  Sound both = play_at(0.25, 0.125);
+  assert_memory_equal(one.left, one.right, size);
+  assert_memory_equal(other.left, other.right, size);
+  assert_memory_equal(both.left, one.left, size);
+  assert_memory_equal(both.right, other.left, size);
+  assert_true(memcmp(both.left, both.right, size) != 0);
+  sound_free(&one);
+  sound_free(&other);
+  sound_free(&both);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(level_and_pickup_change_in_a_line_over_the_block),
@@ -222,6 +274,8 @@ int main(void) {
       cmocka_unit_test(a_port_set_from_end_to_end_does_not_click),
       cmocka_unit_test(sweeping_makes_nothing_louder),
       cmocka_unit_test(what_rings_has_the_new_pitch_and_decay_exactly),
+      cmocka_unit_test(off_is_silent_and_on_is_as_before),
+      cmocka_unit_test(each_side_is_a_pickup_in_its_place),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

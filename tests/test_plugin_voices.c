@@ -57,8 +57,6 @@ static void play_nonsense(Host* host) {
     assert_true(
         host_atom(host, 1050 + 100 * i, LV2_ATOM__Chunk, messages[i].bytes, messages[i].size));
   }
-  const uint8_t note_off[3] = {0x80, 60, 0};
-  assert_true(host_atom(host, 900, LV2_ATOM__String, note_off, 3));
 }
 
 static void what_is_unknown_or_broken_is_ignored(void** state) {
@@ -276,7 +274,7 @@ static void velocity_makes_it_louder_and_a_little_brighter(void** state) {
     const double bright = brightness(&sound);
     print_message("velocity %3u: rms %.3g, brightness %.4f\n", velocity, rms, bright);
     assert_true(rms > rms_before && bright > brightness_before);
-    assert_true(velocity == 1 || bright < 1.5 * brightness_before);
+    assert_true(velocity == 1 || bright < 1.1 * brightness_before);
     rms_before = rms;
     brightness_before = bright;
   }
