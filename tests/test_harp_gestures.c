@@ -156,6 +156,15 @@ static void check_strings(const Harp* harp) {
   assert_true(report.headroom >= TUNING_MARGIN - 16.0 * DBL_EPSILON);
 }
 
+/* The largest sample; infinite if there is one that is no number. */
+static double peak_of(const float* out, uint32_t n_frames) {
+  double peak = 0.0;
+  for (uint32_t n = 0; n < n_frames; ++n) {
+    peak = isfinite(out[n]) ? fmax(peak, fabs((double)out[n])) : HUGE_VAL;
+  }
+  return peak;
+}
+
 static void no_patch_and_no_gesture_explodes(void** state) {
   (void)state;
   enum { PATCHES = 2000, RUN = 200 };
@@ -174,16 +183,18 @@ static void no_patch_and_no_gesture_explodes(void** state) {
       harp_set_patch(harp, &patch, 0);
       for (int turn = 0; turn < 20; ++turn) {
         n_plucks += gesture(harp, &random);
-        harp_run(harp, 1 + random_below(&random, RUN), left, right);
+        const uint32_t n_frames = 1 + random_below(&random, RUN);
+        harp_run(harp, n_frames, left, right);
         check_strings(harp);
-        worst = fmax(worst, fabs((double)left[0]) / fmax(1.0, n_plucks));
-        assert_true(isfinite(left[0]) && isfinite(right[0]));
+        const double peak = fmax(peak_of(left, n_frames), peak_of(right, n_frames));
+        worst = fmax(worst, peak / fmax(1.0, n_plucks));
       }
     }
     harp_free(harp);
   }
-  /* Level 2 times 0.25 for each pluck, and twice that for what a chain of few masses overshoots. */
-  assert_within("largest sample per pluck", worst, 2.0 * 0.25 * 2.0);
+  /* Level 2 times 0.25 for each pluck; and a bend from +24 to −24 semitones, which keeps E/ω, makes
+   * of it the root of sixteen. */
+  assert_within("largest sample per pluck", worst, 2.0 * 0.25 * 4.0);
 }
 
 static void masses_are_capped_by_the_patch(void** state) {
