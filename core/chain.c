@@ -8,6 +8,9 @@
  * 20,000 steps. */
 static const double WEAK_DAMPING = 1e-4;
 
+/* Cells up to which a chain leaves room for another to be stepped beside it. */
+enum { SHORT_CELLS = 16 };
+
 /* Where a mass is among the numbers of the cells: its position, and one vector on its velocity. */
 static size_t offset_of(const Chain* chain, uint32_t i) {
   const size_t n_lanes = chain->loops->n_lanes;
@@ -156,45 +159,72 @@ double chain_amplitude(const Chain* chain, double a1) {
   return sqrt(2.0 * energy / (half_step * (chain->n_masses + 1.0)));
 }
 
-/* Run on until the coefficients are there, or the frames are over; the frames that were run. */
-static uint32_t run_stretch(
-    Chain* chain, uint32_t n_frames, const ChainTap* taps, uint32_t n_taps, float* const* out) {
-  const bool is_moving = chain->n_gliding > 0;
-  const uint32_t n = is_moving && chain->n_gliding < n_frames ? chain->n_gliding : n_frames;
-  ChainReader readers[CHAIN_MAX_TAPS];
-  for (uint32_t t = 0; t < n_taps; ++t) {
-    readers[t] = reader_of(chain, taps[t]);
-  }
-  loop_of(chain, n_taps)((ChainWork){
+uint32_t chain_stretch(const Chain* chain) {
+  return chain->n_gliding > 0 ? chain->n_gliding : UINT32_MAX;
+}
+
+static ChainWork work_of(const ChainPart* part, uint32_t n_taps) {
+  Chain* const chain = part->chain;
+  ChainWork work = {
       .cells = chain->cells,
       .n_masses = chain->n_masses,
       .n_cells = chain->n_cells,
-      .n_frames = n,
       .now = &chain->now,
       .change = chain->change,
-      .readers = readers,
-      .out = out,
-  });
-  if (is_moving) {
-    chain->n_gliding -= n;
+  };
+  for (uint32_t t = 0; t < n_taps; ++t) {
+    work.readers[t] = reader_of(chain, part->taps[t]);
+  }
+  return work;
+}
+
+/* A glide that ends with these frames leaves the chain where it was going. */
+static void finish(Chain* chain, uint32_t n_frames) {
+  if (chain->n_gliding > 0) {
+    chain->n_gliding -= n_frames;
     if (chain->n_gliding == 0) {
       settle(chain);
     }
   }
-  return n;
+}
+
+void chain_run_all(const ChainPart* parts,
+                   uint32_t n_parts,
+                   uint32_t n_frames,
+                   uint32_t n_taps,
+                   float* const* out) {
+  ChainWork batch[CHAIN_MAX_BATCH];
+  for (uint32_t first = 0; first < n_parts;) {
+    const ChainLoop loop = loop_of(parts[first].chain, n_taps);
+    uint32_t n = 0;
+    do {
+      batch[n] = work_of(&parts[first + n], n_taps);
+      ++n;
+    } while (n < CHAIN_MAX_BATCH && first + n < n_parts && batch[n - 1].n_cells <= SHORT_CELLS &&
+             loop_of(parts[first + n].chain, n_taps) == loop);
+    loop(batch, n, n_frames, out);
+    for (uint32_t w = 0; w < n; ++w) {
+      finish(parts[first + w].chain, n_frames);
+    }
+    first += n;
+  }
 }
 
 void chain_run(
     Chain* chain, uint32_t n_frames, const ChainTap* taps, uint32_t n_taps, float* const* out) {
+  ChainPart part = {.chain = chain};
   float* rest[CHAIN_MAX_TAPS];
   for (uint32_t t = 0; t < n_taps; ++t) {
+    part.taps[t] = taps[t];
     rest[t] = out[t];
   }
-  for (uint32_t done = 0; done < n_frames;) {
-    const uint32_t n = run_stretch(chain, n_frames - done, taps, n_taps, rest);
+  while (n_frames > 0) {
+    const uint32_t stretch = chain_stretch(chain);
+    const uint32_t n = stretch < n_frames ? stretch : n_frames;
+    chain_run_all(&part, 1, n, n_taps, rest);
     for (uint32_t t = 0; t < n_taps; ++t) {
       rest[t] += n;
     }
-    done += n;
+    n_frames -= n;
   }
 }

@@ -113,4 +113,25 @@ double chain_amplitude(const Chain* chain, double a1);
 void chain_run(
     Chain* chain, uint32_t n_frames, const ChainTap* taps, uint32_t n_taps, float* const* out);
 
+/** Frames until the chain's glide ends; UINT32_MAX if it stands still. */
+uint32_t chain_stretch(const Chain* chain);
+
+/** A chain and where it is read, for chain_run_all(). */
+typedef struct {
+  Chain* chain;
+  ChainTap taps[CHAIN_MAX_TAPS];
+} ChainPart;
+
+/**
+   As chain_run() of each part in turn, all added to the same outputs, but faster: short chains that
+   need the same loop and follow each other are stepped together.
+
+   @param n_frames  At most the chain_stretch() of every part
+*/
+void chain_run_all(const ChainPart* parts,
+                   uint32_t n_parts,
+                   uint32_t n_frames,
+                   uint32_t n_taps,
+                   float* const* out);
+
 #endif

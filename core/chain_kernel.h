@@ -16,6 +16,7 @@ enum {
   CHAIN_MAX_MASSES = 1024,
   CHAIN_MAX_TAPS = 4,
   CHAIN_MAX_LANES = 8,
+  CHAIN_MAX_BATCH = 4,  /**< Strings that are stepped together */
   CHAIN_ALIGNMENT = 64, /**< Of the cells [bytes] */
 };
 
@@ -25,19 +26,26 @@ typedef struct {
   float weight[2];
 } ChainReader;
 
-/** What a loop works on; see Chain. */
+/** A string for a loop to step; see Chain. */
 typedef struct {
   void* cells;
   uint32_t n_masses;
   uint32_t n_cells;
-  uint32_t n_frames;
   StringCoefs* now;   /**< Read; written where they move */
   StringCoefs change; /**< Per frame */
-  const ChainReader* readers;
-  float* const* out; /**< A buffer of n_frames for each reader, added to */
+  ChainReader readers[CHAIN_MAX_TAPS];
 } ChainWork;
 
-typedef void (*ChainLoop)(ChainWork work);
+/**
+   Step `n_works` strings, at most CHAIN_MAX_BATCH, `n_frames` times, all of them in every frame: a
+   short string is a chain of operations that wait for each other, and another fills the gaps.
+
+   @param out  A buffer of n_frames for each tap, added to in the order of `works`
+*/
+typedef void (*ChainLoop)(const ChainWork* works,
+                          uint32_t n_works,
+                          uint32_t n_frames,
+                          float* const* out);
 
 /** The loops of one precision. */
 typedef struct {

@@ -152,37 +152,72 @@ INLINE float read_tap(const Number* numbers, const ChainReader* reader) {
                  (Number)reader->weight[1] * numbers[reader->offset[1]]);
 }
 
+/* What a string is stepped with: read once before the frames. */
+typedef struct {
+  Cell* cells;
+  uint32_t n_cells;
+  uint32_t wall_cell;
+  Mask mask;
+  StringCoefs wide;
+  Coefs now;
+} Strand;
+
+INLINE Strand strand_of(const ChainWork* work) {
+  return (Strand){
+      .cells = work->cells,
+      .n_cells = work->n_cells,
+      .wall_cell = work->n_masses % work->n_cells,
+      .mask = wall_mask(work->n_masses / work->n_cells),
+      .wide = *work->now,
+      .now = narrow(*work->now),
+  };
+}
+
+INLINE void step(Strand* strand, bool is_bending) {
+  Cell* const cells = strand->cells;
+  if (is_bending) {
+    step_bending(cells, strand->n_cells, strand->now, strand->wall_cell, strand->mask);
+  } else {
+    step_flexible(cells, strand->n_cells, strand->now);
+  }
+  cells[strand->wall_cell].x = hold(cells[strand->wall_cell].x, strand->mask);
+  cells[strand->wall_cell].u = hold(cells[strand->wall_cell].u, strand->mask);
+}
+
 /* The flags are constants wherever this is used, so nothing of them is left to test in the loop. */
-INLINE void run(ChainWork work, bool is_bending, bool is_moving, uint32_t n_taps) {
-  Cell* const cells = work.cells;
-  const Number* const numbers = work.cells;
-  const uint32_t n_cells = work.n_cells;
-  const uint32_t wall_cell = work.n_masses % n_cells;
-  const Mask mask = wall_mask(work.n_masses / n_cells);
-  StringCoefs wide = *work.now;
-  Coefs now = narrow(wide);
-  for (uint32_t n = 0; n < work.n_frames; ++n) {
-    if (is_moving) {
-      wide = advance(wide, work.change);
-      now = narrow(wide);
-    }
-    if (is_bending) {
-      step_bending(cells, n_cells, now, wall_cell, mask);
-    } else {
-      step_flexible(cells, n_cells, now);
-    }
-    cells[wall_cell].x = hold(cells[wall_cell].x, mask);
-    cells[wall_cell].u = hold(cells[wall_cell].u, mask);
-    for (uint32_t t = 0; t < n_taps; ++t) {
-      work.out[t][n] += read_tap(numbers, &work.readers[t]);
+INLINE void run(const ChainWork* works,
+                uint32_t n_works,
+                uint32_t n_frames,
+                float* const* out,
+                bool is_bending,
+                bool is_moving,
+                uint32_t n_taps) {
+  Strand strands[CHAIN_MAX_BATCH];
+  for (uint32_t w = 0; w < n_works; ++w) {
+    strands[w] = strand_of(&works[w]);
+  }
+  for (uint32_t n = 0; n < n_frames; ++n) {
+    for (uint32_t w = 0; w < n_works; ++w) {
+      Strand* const strand = &strands[w];
+      if (is_moving) {
+        strand->wide = advance(strand->wide, works[w].change);
+        strand->now = narrow(strand->wide);
+      }
+      step(strand, is_bending);
+      for (uint32_t t = 0; t < n_taps; ++t) {
+        out[t][n] += read_tap((const Number*)strand->cells, &works[w].readers[t]);
+      }
     }
   }
-  *work.now = wide;
+  for (uint32_t w = 0; is_moving && w < n_works; ++w) {
+    *works[w].now = strands[w].wide;
+  }
 }
 
 #define LOOP(name, is_bending, is_moving, n_taps)                                                  \
-  static void run_##name(ChainWork work) {                                                         \
-    run(work, is_bending, is_moving, n_taps);                                                      \
+  static void run_##name(const ChainWork* works, uint32_t n_works, uint32_t n_frames,              \
+                         float* const* out) {                                                      \
+    run(works, n_works, n_frames, out, is_bending, is_moving, n_taps);                             \
   }
 CHAIN_SCENES(LOOP)
 #undef LOOP

@@ -71,14 +71,20 @@ static void move_pickups(Harp* harp) {
   }
 }
 
-static void run_string(Harp* harp, HarpString* string, const Reading* reading, uint32_t n_frames) {
-  ChainTap taps[CHAIN_MAX_TAPS];
-  float* out[CHAIN_MAX_TAPS];
-  for (uint32_t t = 0; t < reading->n_taps; ++t) {
-    taps[t] = pickup_tap(string->chain.n_masses, reading->place[t]);
-    out[t] = harp->mix[t];
+/* The strings awake, and where they are read. */
+static uint32_t gather(Harp* harp, const Reading* reading) {
+  uint32_t n_parts = 0;
+  for (uint32_t key = 0; key < HARP_KEYS; ++key) {
+    Chain* const chain = &harp->strings[key].chain;
+    if (harp->strings[key].is_awake) {
+      ChainPart* const part = &harp->parts[n_parts++];
+      part->chain = chain;
+      for (uint32_t t = 0; t < reading->n_taps; ++t) {
+        part->taps[t] = pickup_tap(chain->n_masses, reading->place[t]);
+      }
+    }
   }
-  chain_run(&string->chain, n_frames, taps, reading->n_taps, out);
+  return n_parts;
 }
 
 /* Fade from the old pickups, and set the level. */
@@ -100,31 +106,45 @@ mix_down(Harp* harp, const Reading* reading, uint32_t n_frames, float* left, flo
   }
 }
 
-/* Frames that can be run in one go: nothing may change within them but by its own ramp. */
-static uint32_t stretch(const Harp* harp, uint32_t n_frames) {
-  const uint32_t n_until_doze = DOZE_FRAMES - (uint32_t)(harp->frame % DOZE_FRAMES);
-  uint32_t n = n_frames < HARP_MIX_FRAMES ? n_frames : HARP_MIX_FRAMES;
-  n = n < n_until_doze ? n : n_until_doze;
-  return harp->fade.n_left > 0 && harp->fade.n_left < n ? harp->fade.n_left : n;
+static uint32_t least(uint32_t a, uint32_t b) {
+  return a < b ? a : b;
 }
 
-static void run_stretch(Harp* harp, uint32_t n_frames, float* left, float* right) {
-  const Reading reading = reading_of(harp);
-  for (uint32_t t = 0; t < reading.n_taps; ++t) {
-    memset(harp->mix[t], 0, n_frames * sizeof(float));
+/* Frames that can be run in one go: nothing may change within them but by its own ramp. */
+static uint32_t stretch(const Harp* harp, uint32_t n_parts, uint32_t n_frames) {
+  uint32_t n = least(n_frames, HARP_MIX_FRAMES);
+  n = least(n, DOZE_FRAMES - (uint32_t)(harp->frame % DOZE_FRAMES));
+  n = harp->fade.n_left > 0 ? least(n, harp->fade.n_left) : n;
+  for (uint32_t i = 0; i < n_parts; ++i) {
+    n = least(n, chain_stretch(harp->parts[i].chain));
   }
-  const bool is_doze_due = (harp->frame + n_frames) % DOZE_FRAMES == 0;
+  return n;
+}
+
+static void doze_all(Harp* harp) {
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    HarpString* const string = &harp->strings[key];
-    if (string->is_awake) {
-      run_string(harp, string, &reading, n_frames);
-      if (is_doze_due) {
-        harp_string_doze(string);
-      }
+    if (harp->strings[key].is_awake) {
+      harp_string_doze(&harp->strings[key]);
     }
   }
-  mix_down(harp, &reading, n_frames, left, right);
-  harp->frame += n_frames;
+}
+
+/* Run as many of `n_frames` as can be run in one go; how many they were. */
+static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* right) {
+  const Reading reading = reading_of(harp);
+  const uint32_t n_parts = gather(harp, &reading);
+  const uint32_t n = stretch(harp, n_parts, n_frames);
+  float* out[CHAIN_MAX_TAPS];
+  for (uint32_t t = 0; t < reading.n_taps; ++t) {
+    out[t] = memset(harp->mix[t], 0, n * sizeof(float));
+  }
+  chain_run_all(harp->parts, n_parts, n, reading.n_taps, out);
+  mix_down(harp, &reading, n, left, right);
+  harp->frame += n;
+  if (harp->frame % DOZE_FRAMES == 0) {
+    doze_all(harp);
+  }
+  return n;
 }
 
 /* What the hands and the pedal let touch a string. */
@@ -268,9 +288,7 @@ void harp_all_sound_off(Harp* harp) {
 void harp_run(Harp* harp, uint32_t n_frames, float* left, float* right) {
   for (uint32_t done = 0; done < n_frames;) {
     move_pickups(harp);
-    const uint32_t n = stretch(harp, n_frames - done);
-    run_stretch(harp, n, left + done, right + done);
-    done += n;
+    done += run_stretch(harp, n_frames - done, left + done, right + done);
   }
 }
 

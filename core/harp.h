@@ -64,7 +64,8 @@ typedef struct {
   uint32_t n_fade;    /**< Frames that the next fade will take */
   HarpKey keys[HARP_KEYS];
   HarpString strings[HARP_KEYS];
-  void* memory; /**< Memory of all strings; owned */
+  void* memory;               /**< Memory of all strings; owned */
+  ChainPart parts[HARP_KEYS]; /**< The strings awake, while they are run */
   float mix[CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;
 

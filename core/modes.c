@@ -6,15 +6,11 @@
 #include "core/modes_match.h"
 #include "core/modes_symmetric.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
-
-/* Dense matrices of twice this order are as far as LAPACK's integers and patience go. */
-enum { MOST_MASSES = 16384 };
 
 /* The share of itself by which rounding may move an eigenvalue before none is shown. */
 static const double MOST_ERROR = 1e-3;

@@ -205,6 +205,14 @@ void frame_fill_edges(const Frame* frame, uint32_t n_edges, double* edges) {
   }
 }
 
+void frame_stretch_edges(const Frame* frame, const double* y, double* stretches) {
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    if (frame->link[l].k > 0.0) {
+      *stretches++ = sqrt(frame->link[l].k) * stretch(frame, frame->link[l], y);
+    }
+  }
+}
+
 bool frame_is_proportional(const Frame* frame) {
   double* const space = malloc(2 * ((size_t)frame->n + 1) * sizeof(double));
   /* Without room to tell, the general solver is right as well. */

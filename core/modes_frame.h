@@ -51,6 +51,9 @@ uint32_t frame_count_edges(const Frame* frame);
 /** Fill B with BᵀB = K̂, a row √k (e_a/√m_a − e_b/√m_b) a spring; n_edges × n, column-major. */
 void frame_fill_edges(const Frame* frame, uint32_t n_edges, double* edges);
 
+/** The stretches B y, n_edges, without cancellation of what was multiplied before. */
+void frame_stretch_edges(const Frame* frame, const double* y, double* stretches);
+
 /** Whether Z = α M + β K for some α and β, to a few roundings of each entry. */
 bool frame_is_proportional(const Frame* frame);
 

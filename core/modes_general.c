@@ -105,6 +105,9 @@ static double frobenius(const double* matrix, size_t n_values) {
 }
 
 Status general_solve(const Frame* frame, double step_s, double complex* values, double* error) {
+  if (frame->n > GENERAL_MOST) {
+    return STATUS_NO_MEMORY;
+  }
   const size_t order = 2 * (size_t)frame->n;
   const int n = (int)order;
   const int n_work = 64 * n;

@@ -18,6 +18,9 @@
 
 #include <complex.h>
 
+/** Masses beyond which a dense matrix of twice the order is out of the question. */
+#define GENERAL_MOST 8192
+
 /**
    Find all w for which  w² I + w (Ẑ + step_s K̂) + K̂  is singular: with step_s = 0 the analog
    eigenvalues, else (z − 1)/h for the poles z with that step.
@@ -25,7 +28,7 @@
    @param step_s       [s], ≥ 0
    @param[out] values  w [1/s], 2n
    @param[out] error   About how far rounding may have moved a value [1/s]
-   @return STATUS_OK, STATUS_NO_CONVERGENCE or STATUS_NO_MEMORY
+   @return STATUS_OK, STATUS_NO_CONVERGENCE or STATUS_NO_MEMORY (also for more than GENERAL_MOST)
 */
 Status general_solve(const Frame* frame, double step_s, double complex* values, double* error);
 

@@ -92,4 +92,64 @@ const char* pole_region_text(PoleRegion region);
 */
 double pole_largest_step_s(double omega0, double gamma);
 
+/** The mass whose analog eigenvalues are σ ± jμ [1/s, rad/s]:  a = (σ² + μ²) h²,  g = −2σh;
+ * `rate_hz` [Hz, > 0]. */
+Pole pole_from_eigenvalue(double rate_hz, double sigma, double mu);
+
+/*
+   The plane of analog eigenvalues ([MQ09] sections 3.5 to 3.8), in units of the time step: σh, 0 or
+   less, to the left and μh, 0 or more, upwards.  Its regions are those of pole_region() of
+   pole_from_eigenvalue(1, σh, μh).  An eigenvalue which moves left from the axis at a constant μh
+   crosses three edges, whose σh is given; NaN where there is none, or μh < 0.
+*/
+
+/**
+   The edge of vibrating: to the right of it the poles are a conjugate pair ([MQ09] (27), (37)).
+
+   With u³ (4 − u) = 4 (μh)², 0 ≤ u ≤ 2, it is at  σh = u (u − 2)/2.  The poles become real at 0
+   below the singular point and real at π above it; from μh = 2 up there is no such pair.
+*/
+double pole_edge_vibrating(double mu_h);
+
+/**
+   The edge of turning, where the poles' sum is 0:  σh = 1 − √(3 − (μh)²)  ([MQ09] (34), (38)).
+   Below the singular point real poles begin to flip here; above it a pair turns past π/2.
+*/
+double pole_edge_turning(double mu_h);
+
+/** The edge of stability, a + 2g = 4:  σh = 2 − √(8 − (μh)²), where that is 0 or less ([MQ09] (33),
+ * (39)). */
+double pole_edge_stable(double mu_h);
+
+/** Where the first two edges meet and both poles are 0: γh = 1, μh = √3/2. */
+#define POLE_SINGULAR_SIGMA_H (-0.5)
+#define POLE_SINGULAR_MU_H 0.86602540378443864676
+
+/**
+   The line of one digital frequency ([MQ09] Figure 16): the μh at `sigma_h` for which a pair of
+   poles has the angle ω_d h.  (μh)² = 2 − g − 2√(1 − g) cos(ω_d h) − (σh)².
+
+   @param sigma_h  −1/2 < σh ≤ 0
+   @param angle    ω_d h, 0 to π
+   @return μh ≥ 0; NaN where the line does not pass or an argument is out of its range
+*/
+double pole_line_of_frequency(double sigma_h, double angle);
+
+/**
+   The line of one digital damping ([MQ09] Figure 17) where poles are a pair: it is vertical, at
+   σh = −(1 − r²)/2, whatever μh, between two real branches.
+
+   @param radius  r = exp(σ_d h), 0 < r ≤ 1
+   @return σh; NaN out of that range
+*/
+double pole_line_of_damping(double radius);
+
+/**
+   The same line where poles are real: the μh at `sigma_h` for which the larger pole is r, or −r.
+
+   @param is_at_pi  Whether it is −r
+   @return μh ≥ 0; NaN where the branch does not pass
+*/
+double pole_branch_of_damping(double sigma_h, double radius, bool is_at_pi);
+
 #endif

@@ -1,0 +1,84 @@
+/* What Hooke Strings costs, as a share of one core: the best of many short runs, for machines are
+ * noisy. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "tools/host.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+enum { RATE_HZ = 48000, BLOCK = 256, LOWEST_KEY = 21, HIGHEST_KEY = 108 };
+
+static double now_s(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static Host* open_strings(void) {
+  char error[256];
+  Host* const host = host_new("urn:hooke:strings", RATE_HZ, BLOCK, error, sizeof(error));
+  if (!host) {
+    fail_msg("%s", error);
+  }
+  return host;
+}
+
+/* The plugin's run() alone, without the host around it. */
+static double best_share(Host* host, int n_tries, int n_blocks) {
+  LilvInstance* const instance = host_instance(host);
+  double best = HUGE_VAL;
+  for (int i = 0; i < n_tries; ++i) {
+    const double start = now_s();
+    for (int k = 0; k < n_blocks; ++k) {
+      lilv_instance_run(instance, BLOCK);
+    }
+    best = fmin(best, now_s() - start);
+  }
+  return best * RATE_HZ / ((double)n_blocks * BLOCK);
+}
+
+static void all_88_keys_cost_less_than_15_percent(void** state) {
+  (void)state;
+  Host* const host = open_strings();
+  host_set(host, "masses", 128.0f);
+  host_set(host, "damping", 0.3f);
+  for (unsigned key = LOWEST_KEY; key <= HIGHEST_KEY; ++key) {
+    const uint8_t note_on[3] = {0x90, (uint8_t)key, 100};
+    assert_true(host_midi(host, 0, note_on, 3));
+  }
+  assert_true(host_run(host, BLOCK));
+  assert_true(host_run(host, BLOCK));
+  const double share = best_share(host, 40, 20);
+  const double n_masses = (double)host_get(host, "mass_count");
+  print_message("88 keys, %g masses: %.2f %% of a core, %.3f ns a mass-step\n", n_masses,
+                100.0 * share, 1e9 * share / (RATE_HZ * n_masses));
+  assert_true((double)host_get(host, "sounding") == 88.0);
+  assert_true(n_masses > 6200.0);
+  assert_true(share < 0.15);
+  host_free(host);
+}
+
+static void silence_costs_less_than_a_twentieth_of_a_percent(void** state) {
+  (void)state;
+  Host* const host = open_strings();
+  assert_true(host_run(host, BLOCK));
+  const double share = best_share(host, 20, 200);
+  print_message("silence: %.4f %% of a core\n", 100.0 * share);
+  assert_true(share < 0.0005);
+  host_free(host);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(all_88_keys_cost_less_than_15_percent),
+      cmocka_unit_test(silence_costs_less_than_a_twentieth_of_a_percent),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
