@@ -2,142 +2,34 @@
 
 #include "tools/render.h"
 
-#include "tools/args.h"
 #include "tools/host.h"
 #include "tools/locate.h"
 #include "tools/midifile.h"
 #include "tools/play.h"
+#include "tools/render_options.h"
+#include "tools/scene_render.h"
 #include "tools/setting.h"
 #include "tools/soundfile.h"
 
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
-const char render_help[] =
-    "usage: hooke render [OPTION]... IN.mid OUT.wav\n"
-    "\n"
-    "Play a Standard MIDI File with a plugin and write what sounds.\n"
-    "OUT ends in .wav, .flac or .ogg.\n"
-    "\n"
-    "  --preset NAME       start from a preset, by its name or URI\n"
-    "  --set SYMBOL=VALUE  set a control, after the preset; may be repeated\n"
-    "  --rate HZ           sample rate, 48000 by default\n"
-    "  --block N           frames in a block, 256 by default\n"
-    "  --tail S            seconds after the last message; by default until silent, at most 10\n"
-    "  --bits N            16, 24 or 32 (float); by default 32 for .wav, 24 for .flac\n"
-    "  --plugin URI        the plugin, urn:hooke:strings by default\n"
-    "  --list-presets      write the names of the presets, and no sound\n"
-    "  --quiet             write nothing to the terminal but errors\n";
+static const double USUAL_RATE_HZ = 48000.0;
 
-enum { PRESET, SET, RATE, BLOCK, TAIL, BITS, PLUGIN, LIST_PRESETS, QUIET };
-
-static const ArgsOption options[] = {
-    [PRESET] = {"--preset", true}, [SET] = {"--set", true},
-    [RATE] = {"--rate", true},     [BLOCK] = {"--block", true},
-    [TAIL] = {"--tail", true},     [BITS] = {"--bits", true},
-    [PLUGIN] = {"--plugin", true}, [LIST_PRESETS] = {"--list-presets", false},
-    [QUIET] = {"--quiet", false},  {NULL, false}};
-
+/* What sounds: a host that plays a song, or a scene. */
 typedef struct {
-  Args args;
-  const char* in;
-  const char* out;
-  const char* preset;
-  const char* plugin;
-  const char** sets; // In the order given
-  size_t n_sets;
-  long rate_hz;
-  long block;
-  long bits;
-  double tail_s;
-  bool lists_presets;
-  bool is_quiet;
-} Render;
+  Host* host;
+  const MidiFile* song;
+  Scene* scene;
+  double rate_hz;
+} Source;
 
-static bool take_operand(Render* self) {
-  const char** const place = !self->in ? &self->in : !self->out ? &self->out : NULL;
-  if (!place) {
-    args_fail(&self->args, 0, "found '%s' too, expected one input and one output",
-              self->args.value);
-    return false;
-  }
-  *place = self->args.value;
-  return true;
-}
-
-static bool take_bits(Render* self, const char* value) {
-  if (!args_whole(&self->args, "--bits", value, 16, 32, &self->bits)) {
-    return false;
-  }
-  if (self->bits != 16 && self->bits != 24 && self->bits != 32) {
-    args_fail(&self->args, 0, "--bits: found '%s', expected 16, 24 or 32", value);
-    return false;
-  }
-  return true;
-}
-
-static bool take_option(Render* self, int index) {
-  const Args* const args = &self->args;
-  const char* const value = args->value;
-  switch (index) {
-  case PRESET:
-    self->preset = value;
-    return true;
-  case SET:
-    self->sets[self->n_sets++] = value;
-    return true;
-  case RATE:
-    return args_whole(args, "--rate", value, 4000, 768000, &self->rate_hz);
-  case BLOCK:
-    return args_whole(args, "--block", value, 1, 65536, &self->block);
-  case TAIL:
-    return args_number(args, "--tail", value, 0.0, 3600.0, &self->tail_s);
-  case BITS:
-    return take_bits(self, value);
-  case PLUGIN:
-    self->plugin = value;
-    return true;
-  case LIST_PRESETS:
-    return self->lists_presets = true;
-  case QUIET:
-    return self->is_quiet = true;
-  case ARGS_OPERAND:
-    return take_operand(self);
-  default:
-    return false;
-  }
-}
-
-static bool parse(Render* self) {
-  for (int i = args_next(&self->args); i != ARGS_END; i = args_next(&self->args)) {
-    if (!take_option(self, i)) {
-      return false;
-    }
-  }
-  if (self->lists_presets) {
-    return true;
-  }
-  if (!self->in || !self->out) {
-    args_fail(&self->args, 0, "found no %s, expected IN.mid and OUT.wav; try hooke help render",
-              self->in ? "output" : "input");
-    return false;
-  }
-  const char* const refusal = soundfile_refuse(self->out, (unsigned)self->bits);
-  if (refusal) {
-    args_fail(&self->args, 0, "%s: %s", self->out, refusal);
-    return false;
-  }
-  return true;
-}
-
-static Host* make_host(const Render* self) {
+static Host* make_host(const RenderOptions* self, double rate_hz) {
   char bundle[4096];
   char error[256] = "";
-  const HostConfig config = {.rate_hz = (double)self->rate_hz,
+  const HostConfig config = {.rate_hz = rate_hz,
                              .max_block = (uint32_t)self->block,
                              .bundle = locate_bundle(bundle, sizeof(bundle)) ? bundle : NULL,
                              .is_silent = self->is_quiet};
@@ -148,7 +40,7 @@ static Host* make_host(const Render* self) {
   return host;
 }
 
-static bool prepare(const Render* self, Host* host) {
+static bool prepare(const RenderOptions* self, Host* host) {
   if (self->preset && !host_preset(host, self->preset)) {
     args_fail(&self->args, 0, "%s; --list-presets names them", host_error(host));
     return false;
@@ -162,8 +54,8 @@ static bool prepare(const Render* self, Host* host) {
   return true;
 }
 
-static void report(const Render* self, const PlayResult* result) {
-  const double duration_s = (double)result->n_frames / (double)self->rate_hz;
+static void report(const RenderOptions* self, const Source* source, const PlayResult* result) {
+  const double duration_s = (double)result->n_frames / source->rate_hz;
   char peak[32] = "silent";
   if (result->peak > 0) {
     (void)snprintf(peak, sizeof(peak), "peak %.1f dBFS", 20.0 * log10((double)result->peak));
@@ -174,36 +66,49 @@ static void report(const Render* self, const PlayResult* result) {
   }
 }
 
-static int play_to_file(const Render* self, Host* host, const MidiFile* song) {
+static bool play_source(const RenderOptions* self,
+                        const Source* source,
+                        SoundFile* sound,
+                        PlayResult* result,
+                        char* error,
+                        size_t error_size) {
+  const bool shows_progress = !self->is_quiet && isatty(STDERR_FILENO);
+  if (source->scene) {
+    return scene_render_play(source->scene, source->rate_hz, shows_progress, sound, result, error,
+                             error_size);
+  }
+  const PlayHow how = {source->rate_hz, (uint32_t)self->block, self->tail_s, shows_progress};
+  return play(source->host, source->song, &how, sound, result, error, error_size);
+}
+
+static int play_to_file(const RenderOptions* self, const Source* source) {
   char error[512] = "";
   PlayResult result = {0};
   SoundFile* const sound =
-      soundfile_new(self->out, (int)self->rate_hz, (unsigned)self->bits, error, sizeof(error));
+      soundfile_new(self->out, (int)source->rate_hz, (unsigned)self->bits, error, sizeof(error));
   if (!sound) {
     return args_fail(&self->args, ARGS_FAILURE, "%s", error);
   }
-  const PlayHow how = {(double)self->rate_hz, (uint32_t)self->block, self->tail_s,
-                       !self->is_quiet && isatty(STDERR_FILENO)};
-  if (!play(host, song, &how, sound, &result, error, sizeof(error))) {
+  if (!play_source(self, source, sound, &result, error, sizeof(error))) {
     soundfile_free(sound);
     return args_fail(&self->args, ARGS_FAILURE, "%s: %s", self->out, error);
   }
   if (!soundfile_finish(sound)) {
     return args_fail(&self->args, ARGS_FAILURE, "%s: not written", self->out);
   }
-  report(self, &result);
+  report(self, source, &result);
   return ARGS_OK;
 }
 
 /* Signals wait until the unfinished file is gone: then they do what they do. */
-static int play_uninterrupted(const Render* self, Host* host, const MidiFile* song) {
+static int play_uninterrupted(const RenderOptions* self, const Source* source) {
   sigset_t signals;
   sigset_t old_signals;
   (void)sigemptyset(&signals);
   (void)sigaddset(&signals, SIGINT);
   (void)sigaddset(&signals, SIGTERM);
   (void)sigprocmask(SIG_BLOCK, &signals, &old_signals);
-  const int code = play_to_file(self, host, song);
+  const int code = play_to_file(self, source);
   (void)sigprocmask(SIG_SETMASK, &old_signals, NULL);
   return code;
 }
@@ -215,40 +120,63 @@ static int list_presets(Host* host) {
   return ARGS_OK;
 }
 
-static int render(const Render* self, const MidiFile* song) {
-  Host* const host = make_host(self);
-  if (!host) {
+static int render_with_host(const RenderOptions* self, const MidiFile* song) {
+  Source source = {.song = song, .rate_hz = self->rate_hz ? (double)self->rate_hz : USUAL_RATE_HZ};
+  source.host = make_host(self, source.rate_hz);
+  if (!source.host) {
     return ARGS_FAILURE;
   }
-  const int code = self->lists_presets    ? list_presets(host)
-                   : !prepare(self, host) ? ARGS_USAGE
-                                          : play_uninterrupted(self, host, song);
-  host_free(host);
+  const int code = self->lists_presets           ? list_presets(source.host)
+                   : !prepare(self, source.host) ? ARGS_USAGE
+                                                 : play_uninterrupted(self, &source);
+  host_free(source.host);
   return code;
 }
 
-static int render_song(const Render* self) {
+static int render_song(const RenderOptions* self) {
   if (self->lists_presets) {
-    return render(self, NULL);
+    return render_with_host(self, NULL);
   }
   char error[512] = "";
   MidiFile* const song = midifile_new(self->in, error, sizeof(error));
-  const int code = song ? render(self, song) : args_fail(&self->args, ARGS_FAILURE, "%s", error);
+  const int code =
+      song ? render_with_host(self, song) : args_fail(&self->args, ARGS_FAILURE, "%s", error);
   midifile_free(song);
   return code;
 }
 
-int render_main(int argc, char** argv) {
-  Render self = {.args = {.command = "hooke render", .words = argv + 1, .options = options},
-                 .plugin = "urn:hooke:strings",
-                 .rate_hz = 48000,
-                 .block = 256,
-                 .tail_s = -1.0};
-  self.sets = calloc((size_t)argc + 1, sizeof(*self.sets));
-  if (!self.sets) {
-    return args_fail(&self.args, ARGS_FAILURE, "out of memory");
+static int play_scene(const RenderOptions* self, const Source* source) {
+  if (source->rate_hz != floor(source->rate_hz)) {
+    return args_fail(&self->args, ARGS_FAILURE,
+                     "%s: found a rate of %.12g Hz, expected a whole number for a sound file; "
+                     "--rate sets one",
+                     self->in, source->rate_hz);
   }
-  const int code = parse(&self) ? render_song(&self) : ARGS_USAGE;
-  free((void*)self.sets);
+  const int code = self->is_anyway
+                       ? ARGS_OK
+                       : scene_render_judge(&self->args, self->in, source->scene, source->rate_hz);
+  return code ? code : play_uninterrupted(self, source);
+}
+
+static int render_scene(const RenderOptions* self) {
+  char error[SCENE_ERROR_SIZE] = "";
+  Source source = {.scene = scene_new(self->in, SCENE_FOR_SOUND, error, sizeof(error))};
+  if (!source.scene) {
+    return args_fail(&self->args, ARGS_FAILURE, "%s", error);
+  }
+  source.rate_hz = self->rate_hz ? (double)self->rate_hz : source.scene->rate_hz;
+  const int code = play_scene(self, &source);
+  scene_free(source.scene);
+  return code;
+}
+
+static int render(const RenderOptions* self) {
+  return self->in && scene_render_is_scene(self->in) ? render_scene(self) : render_song(self);
+}
+
+int render_main(int argc, char** argv) {
+  RenderOptions options;
+  const int code = render_options_read(&options, argc, argv) ? render(&options) : ARGS_USAGE;
+  render_options_clear(&options);
   return code;
 }

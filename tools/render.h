@@ -1,5 +1,5 @@
 /**
-   `hooke render`: a MIDI file in, a sound file out.
+   `hooke render`: a MIDI file or a scene in, a sound file out.
 */
 #ifndef HOOKE_TOOLS_RENDER_H
 #define HOOKE_TOOLS_RENDER_H
@@ -12,8 +12,8 @@ extern const char render_help[];
 
    @param argc  Words in `argv`, without the program's name
    @param argv  "render" and what follows, ended by NULL
-   @return ARGS_OK, ARGS_FAILURE or ARGS_USAGE; unless ARGS_OK, one line is on stderr and no file is
-   left behind.
+   @return ARGS_OK, ARGS_FAILURE, ARGS_USAGE or SCENE_UNSTABLE; unless ARGS_OK, one line is on stderr
+   and no file is left behind.
 */
 int render_main(int argc, char** argv);
 
