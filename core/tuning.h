@@ -66,7 +66,7 @@ Status tuning_solve(const TuningTarget* target, uint32_t n_masses, StringCoefs* 
 /**
    The smallest of 1 − (a_k + 2 g_k)/4 over the modes; −INFINITY where bending is so negative that a
    mode is not pulled back.  The string is stable iff this is not negative.  Where bending is
-   negative it may come out lower than the truth, never higher.
+   negative it may come out lower than the truth, never higher.  k1 > 0 is taken for granted.
 */
 double tuning_headroom(StringCoefs coefs, uint32_t n_masses);
 
