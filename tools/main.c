@@ -1,5 +1,7 @@
 #include "tools/args.h"
+#include "tools/modes_command.h"
 #include "tools/render.h"
+#include "tools/tune_command.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +18,9 @@ typedef struct {
 } Command;
 
 static const Command commands[] = {
-    {"render", "play a MIDI file and write what sounds", render_help, render_main},
+    {"render", "play a MIDI file or a scene and write what sounds", render_help, render_main},
+    {"modes", "say what a scene will sound like, and whether it is stable", modes_help, modes_main},
+    {"tune", "find the masses and springs of a pitch and a decay", tune_help, tune_main},
 };
 
 enum { N_COMMANDS = sizeof(commands) / sizeof(commands[0]) };
