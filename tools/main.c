@@ -1,6 +1,7 @@
 #include "tools/args.h"
 #include "tools/modes_command.h"
 #include "tools/render.h"
+#include "tools/report.h"
 #include "tools/tune_command.h"
 
 #include <stdio.h>
@@ -21,6 +22,7 @@ static const Command commands[] = {
     {"render", "play a MIDI file or a scene and write what sounds", render_help, render_main},
     {"modes", "say what a scene will sound like, and whether it is stable", modes_help, modes_main},
     {"tune", "find the masses and springs of a pitch and a decay", tune_help, tune_main},
+    {"report", "draw the paper's figures and check its numbers", report_help, report_main},
 };
 
 enum { N_COMMANDS = sizeof(commands) / sizeof(commands[0]) };
