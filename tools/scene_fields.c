@@ -159,6 +159,7 @@ take_point(SceneText* text, const SceneNames* names, char* word, Field field, Fi
     return refuse_point(text, names, word, field);
   }
   ++out->n_points;
+  out->point_word = word;
   return true;
 }
 

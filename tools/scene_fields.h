@@ -45,6 +45,7 @@ typedef struct {
   uint32_t point[2]; ///< Of FIELD_POINT and FIELD_MASS, in their order
   double number[3];  ///< Of the numbers, in their order
   uint32_t n_points;
+  const char* point_word; ///< For the last point
   uint32_t n_numbers;
 } Fields;
 

@@ -62,9 +62,11 @@ static bool take_ground(SceneReader* reader, const Fields* fields) {
 }
 
 static bool has_two_ends(SceneReader* reader, const Fields* fields) {
+  char quote[SCENE_TEXT_QUOTE_SIZE];
   return fields->point[0] != fields->point[1] ||
          scene_text_fail_at(&reader->text, reader->text.line,
-                            "found the same point twice, expected two points");
+                            "found %s at both ends, expected two points",
+                            scene_text_quote(fields->point_word, quote));
 }
 
 static bool take_spring(SceneReader* reader, const Fields* fields) {
