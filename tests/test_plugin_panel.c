@@ -79,6 +79,19 @@ static void a_change_takes_five_milliseconds_at_the_least(void** state) {
   check_line(1, shortest, "spread", 0.0, 0.5);
 }
 
+static void level_is_in_decibels(void** state) {
+  (void)state;
+  Host* const host = strings_open(RATE, BLOCK);
+  Sound loud = play_change(host, BLOCK, "level", 0.0, 0.0);
+  Sound soft = play_change(host, BLOCK, "level", -20.0, -20.0);
+  for (size_t i = 0; i < N_FRAMES; ++i) {
+    assert_true(fabs((double)soft.left[i] - 0.1 * (double)loud.left[i]) < 1e-7);
+  }
+  sound_free(&loud);
+  sound_free(&soft);
+  host_free(host);
+}
+
 /* Largest second difference, that is where a click would stand out. */
 static double roughness(const float* samples, size_t from, size_t to) {
   double worst = 0.0;
@@ -270,6 +283,7 @@ static void each_side_is_a_pickup_in_its_place(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(level_and_pickup_change_in_a_line_over_the_block),
+      cmocka_unit_test(level_is_in_decibels),
       cmocka_unit_test(a_change_takes_five_milliseconds_at_the_least),
       cmocka_unit_test(a_port_set_from_end_to_end_does_not_click),
       cmocka_unit_test(sweeping_makes_nothing_louder),
