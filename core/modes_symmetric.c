@@ -16,10 +16,19 @@ enum { MORE_VECTORS = 8, MOST_ROUNDS = 1000 };
 /* Below this, changes of ω are rounding once they do not halve any more. */
 static const double NEARLY = 1e-11;
 
+/* What LAPACK is to allow for in a matrix, its JOBA: rows and columns of unlike size, or columns
+ * only, which saves a search that takes the square of the rows. */
+static const char UNLIKE_ROWS[] = "F";
+static const char UNLIKE_COLUMNS[] = "C";
+
 /* Singular values of `matrix`, m × n with m ≥ n, destroyed, falling, and their right vectors in
  * `right`, n × n. */
-static Status
-jacobi(uint32_t m_rows, uint32_t n_columns, double* matrix, double* value, double* right) {
+static Status jacobi(const char* kind,
+                     uint32_t m_rows,
+                     uint32_t n_columns,
+                     double* matrix,
+                     double* value,
+                     double* right) {
   const int m = (int)m_rows;
   const int n = (int)n_columns;
   const int n_work = 2 * m + 70 * n + 7;
@@ -30,8 +39,8 @@ jacobi(uint32_t m_rows, uint32_t n_columns, double* matrix, double* value, doubl
   int* const iwork = malloc(((size_t)m + 3 * (size_t)n) * sizeof(int));
   Status status = work && iwork ? STATUS_OK : STATUS_NO_MEMORY;
   if (!status) {
-    dgejsv_("F", "N", "V", "N", "N", "N", &m, &n, matrix, &m, value, &unused, &one, right, &n, work,
-            &n_work, iwork, &info);
+    dgejsv_(kind, "N", "V", "N", "N", "N", &m, &n, matrix, &m, value, &unused, &one, right, &n,
+            work, &n_work, iwork, &info);
     status = info ? STATUS_NO_CONVERGENCE : STATUS_OK;
     for (int k = 0; k < n; ++k) {
       value[k] *= work[0] / work[1];
@@ -49,7 +58,7 @@ static Status solve_all(const Frame* frame, double* omega, double* shapes) {
   Status status = edges ? STATUS_OK : STATUS_NO_MEMORY;
   if (!status) {
     frame_fill_edges(frame, m, edges);
-    status = jacobi(m, frame->n, edges, omega, shapes);
+    status = jacobi(UNLIKE_ROWS, m, frame->n, edges, omega, shapes);
   }
   free(edges);
   return status;
@@ -136,7 +145,8 @@ static Status turn(Subspace* sub) {
     frame_stretch_edges(sub->frame, sub->vectors + (size_t)n * k,
                         sub->stretches + (size_t)sub->n_edges * k);
   }
-  const Status status = jacobi(sub->n_edges, p, sub->stretches, sub->omega, sub->right);
+  const Status status =
+      jacobi(UNLIKE_COLUMNS, sub->n_edges, p, sub->stretches, sub->omega, sub->right);
   memset(sub->turned, 0, (size_t)n * p * sizeof(double));
   for (uint32_t k = 0; k < p && !status; ++k) {
     for (uint32_t j = 0; j < p; ++j) {
