@@ -68,7 +68,7 @@ static Status write_symplectic(FILE* data) {
   "set rmargin at screen 0.54\n"                                                                   \
   "set xlabel 'time  [periods]'\n"                                                                 \
   "set ylabel 'displacement  x / x_0'\n"                                                           \
-  "plot [0:3][-r:1.6*r] \\\n"                                                                      \
+  "plot [0:3][-r:1.5*r] \\\n"                                                                      \
   "  data index 'exact' with lines lc rgb grey lw 2 title 'exact', \\\n"                           \
   "  data index 'scheme' with linespoints lc rgb blue pt 7 ps 0.3 lw 1.5 title '" name "'\n"       \
   "set lmargin at screen 0.66\n"                                                                   \

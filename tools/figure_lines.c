@@ -83,14 +83,14 @@ static Status write_decays(FILE* data) {
 static const char frequencies_script[] =
     "set xlabel 'σ h  [per sample]'\n"
     "set ylabel 'μ h  [rad per sample]'\n"
-    "set key at graph 0.015, graph 0.975 left Left reverse opaque fc rgb '#ffffff'\n"
-    "set label 1 'ω_d h =' at graph 1.015, graph 1.05\n"
+    "set key at graph 0.015, graph 0.975 left Left reverse\n"
+    "set label 1 'ω_d h =' at graph 1.015, first 2.15\n"
     "do for [k = 1:7] {\n"
     "  name = word('π/8 π/4 3π/8 π/2 5π/8 3π/4 7π/8', k)\n"
-    "  set label k + 1 name at graph 1.015, first 2 * sin(k * pi / 16)\n"
+    "  set label k + 1 name at graph 1.015, first 2 * sin(k * pi / 16) font ',12'\n"
     "}\n"
     "set rmargin 11\n"
-    "plot [-0.55:0][0:2.15] \\\n"
+    "plot [-0.55:0][0:2.45] \\\n"
     "  data index 'border' with filledcurves closed fc rgb vibrates notitle, \\\n"
     "  data index 'frequency' with lines lw 2 lc rgb blue title 'equal ω_d h, as stepped', \\\n"
     "  for [k = 1:5] k * pi / 8 with lines lw 1.5 dt 3 lc rgb grey \\\n"
@@ -104,7 +104,7 @@ static const char decays_script[] =
     "do for [k = 1:7] {\n"
     "  d = word('-0.05 -0.1 -0.2 -0.3 -0.5 -0.8 -1.2', k)\n"
     "  s = (exp(2 * d) - 1) / 2\n"
-    "  set label k d at s, 0.55 center rotate by 90 font ',12' front \\\n"
+    "  set label k d at s, 1.0 center rotate by 90 font ',12' front \\\n"
     "    textcolor rgb black boxed\n"
     "}\n"
     "set style textbox opaque noborder margins 0.3, 0.3\n"
@@ -116,7 +116,8 @@ const Figure figure_lines[2] = {
     {.number = 16,
      .title = "Iso-frequency lines",
      .shows = "Along each solid line all masses are heard at the same frequency, ω_d h = π/8, π/4, "
-              "… 7π/8.  Were nothing warped they would be the level dotted lines.",
+              "… 7π/8.  Were nothing warped they would be "
+              "level: the dotted lines, of which the upper two lie outside.",
      .equation =
          "(ω0 h)² = 2 − γh − 2 √(1 − γh) cos(ω_d h), which is (30) solved, for γh from 0 to "
          "1",

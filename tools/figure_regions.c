@@ -5,6 +5,7 @@
 
 static const double PI = 3.14159265358979323846;
 
+/* The first script counts on the first 50 of N_BORDER lying up to ω0 h = 1. */
 enum { N_BORDER = 100, N_LOCUS = 80 };
 
 static Status write_parameters(FILE* data) {
@@ -110,11 +111,11 @@ static const char parameters_script[] =
     "set label 5 'both poles at z = 0' at 1.0,0.9 center font ',12' front\n"
     "unset key\n"
     "plot [0:2.2][0:2.2] \\\n"
-    "  data index 'borders' using 1:($1 <= 1 ? $3 : NaN):2 with filledcurves fc rgb creeps, \\\n"
+    "  data index 'borders' every ::0::50 using 1:3:2 with filledcurves fc rgb creeps, \\\n"
     "  data index 'borders' using 1:4:($2 > $3 ? $2 : $3) with filledcurves fc rgb flips, \\\n"
     "  data index 'borders' using 1:2:(0) with filledcurves fc rgb vibrates, \\\n"
     "  data index 'borders' using 1:2 with lines lw 2 lc rgb blue, \\\n"
-    "  data index 'borders' using 1:($1 <= 1 ? $3 : NaN) with lines lw 2 dt 2 lc rgb orange, \\\n"
+    "  data index 'borders' every ::0::50 using 1:3 with lines lw 2 dt 2 lc rgb orange, \\\n"
     "  data index 'borders' using 1:4 with lines lw 2.5 lc rgb red, \\\n"
     "  '+' using (1):(1) every ::0::0 with points pt 7 ps 0.8 lc rgb black\n";
 

@@ -67,7 +67,9 @@ static double decibels(double level, double reference) {
 /* Rows of frequency and level from `low` to `high`. */
 static void
 write_span(FILE* data, const double* x, double reference, double low, double high, double step) {
-  for (double f = low; f < high; f += step) {
+  const int n_rows = (int)ceil((high - low) / step);
+  for (int i = 0; i < n_rows; ++i) {
+    const double f = low + i * step;
     const double level = figure_sound_level(x, N_STRING, FIGURE_STRING_RATE_HZ, f);
     (void)fprintf(data, "%.2f %.2f\n", f, decibels(level, reference));
   }

@@ -100,7 +100,7 @@ static const char undamped_script[] =
     "plot [0:0.5][0:800] data index 'undamped' using 3:4 with lines lw 2 lc rgb blue\n"
     "unset multiplot\n";
 
-#define LINE_SCRIPT(mu, first)                                                                     \
+#define LINE_SCRIPT(mu, first, second)                                                             \
   "mu = " mu "\n"                                                                                  \
   "last = 2 - sqrt(8 - mu**2)\n"                                                                   \
   "set multiplot\n"                                                                                \
@@ -117,7 +117,7 @@ static const char undamped_script[] =
   "  data index 'corners' every ::0::0 using 1:2:(sprintf('%.4f', $1)) with labels \\\n"           \
   "    " first " font ',12' notitle, \\\n"                                                         \
   "  data index 'corners' every ::1::1 using 1:2:(sprintf('%.4f', $1)) with labels \\\n"           \
-  "    right offset 1.5,1.1 font ',12' notitle\n"                                                  \
+  "    " second " font ',12' notitle\n"                                                            \
   "set lmargin at screen 0.62\n"                                                                   \
   "set rmargin at screen 0.98\n"                                                                   \
   "set ytics auto\n"                                                                               \
@@ -170,14 +170,14 @@ const Figure figure_warping[5] = {
               "edge.",
      .equation = LINE_EQUATION,
      .source = LINE_SOURCE,
-     .script = LINE_SCRIPT("0.1", "left offset 0,1.1"),
+     .script = LINE_SCRIPT("0.1", "left offset 0,1.1", "left offset -1,1.1"),
      .write = write_low},
     {.number = 13,
      .title = "Frequency and damping along μh = 0.8",
      .shows = "Just under the singular point the mass creeps for a short stretch only.",
      .equation = LINE_EQUATION,
      .source = LINE_SOURCE,
-     .script = LINE_SCRIPT("0.8", "left offset 0.6,0.6"),
+     .script = LINE_SCRIPT("0.8", "left offset 0.6,0.6", "right offset -0.6,0.6"),
      .write = write_middle},
     {.number = 14,
      .title = "Frequency and damping along μh = 0.87",
@@ -185,7 +185,7 @@ const Figure figure_warping[5] = {
               "passes π/2 where an arc tangent of a quotient would jump.",
      .equation = LINE_EQUATION,
      .source = LINE_SOURCE,
-     .script = LINE_SCRIPT("0.87", "right offset -0.8,0"),
+     .script = LINE_SCRIPT("0.87", "right offset -0.8,0", ""),
      .write = write_high},
     {.number = 15,
      .title = "How much faster a stepped mass dies",

@@ -13,13 +13,13 @@
 bool gnuplot_is_there(void);
 
 /**
-   Run scripts, one after the other, in one gnuplot.
+   Run a script, without the user's own settings.
 
-   @param directory_fd  Where it runs; the scripts' file names are relative to it
-   @param names         The scripts, ended by NULL
+   @param directory_fd  Where it runs and finds its files
+   @param script        The script's name in there
    @param[out] error    What it said first, in one line; untouched on success
-   @return Whether all was done.  It leaves a file gnuplot.log in the directory.
+   @return Whether all was done
 */
-bool gnuplot_run(int directory_fd, char* const names[], char* error, size_t error_size);
+bool gnuplot_run(int directory_fd, const char* script, char* error, size_t error_size);
 
 #endif

@@ -1,5 +1,3 @@
-#define _POSIX_C_SOURCE 200809L
-
 #include "tools/report.h"
 
 #include "tools/args.h"
@@ -11,7 +9,6 @@
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 const char report_help[] =
     "usage: hooke report DIR\n"
@@ -87,14 +84,13 @@ static bool write_figures(const ReportPlace* place) {
 }
 
 static bool draw(const ReportPlace* place, char* error, size_t error_size) {
-  char names[FIGURE_COUNT][REPORT_NAME_SIZE];
-  char* list[FIGURE_COUNT + 1] = {NULL};
-  for (unsigned i = 0; i < FIGURE_COUNT; ++i) {
-    report_page_name(names[i], figure_at(i)->number, "gp");
-    list[i] = names[i];
+  char name[REPORT_NAME_SIZE];
+  bool is_drawn = true;
+  for (unsigned i = 0; is_drawn && i < FIGURE_COUNT; ++i) {
+    report_page_name(name, figure_at(i)->number, "gp");
+    is_drawn = gnuplot_run(place->part_fd, name, error, error_size);
   }
-  const bool is_drawn = gnuplot_run(place->part_fd, list, error, error_size);
-  return is_drawn && !unlinkat(place->part_fd, "gnuplot.log", 0);
+  return is_drawn;
 }
 
 static bool write_pages(const ReportPlace* place) {

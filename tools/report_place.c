@@ -91,18 +91,23 @@ bool report_place_close(FILE* file) {
 }
 
 char* report_place_read(const ReportPlace* place, const char* name, size_t* n_bytes) {
-  struct stat status;
+  struct stat status = {0};
   const int fd = openat(place->part_fd, name, O_RDONLY | O_CLOEXEC);
-  if (fd < 0 || fstat(fd, &status)) {
+  FILE* const file = fd < 0 || fstat(fd, &status) ? NULL : fdopen(fd, "r");
+  if (!file) {
+    if (fd >= 0) {
+      (void)close(fd);
+    }
     return NULL;
   }
   const size_t size = (size_t)status.st_size;
-  char* const bytes = calloc(size + 1, 1);
-  *n_bytes = 0;
-  for (ssize_t n = 1; bytes && n > 0 && *n_bytes<size; *n_bytes += n> 0 ? (size_t)n : 0) {
-    n = read(fd, bytes + *n_bytes, size - *n_bytes);
+  char* bytes = calloc(size + 1, 1);
+  if (bytes && fread(bytes, 1, size, file) != size) {
+    free(bytes);
+    bytes = NULL;
   }
-  (void)close(fd);
+  *n_bytes = size;
+  (void)fclose(file);
   return bytes;
 }
 
