@@ -1,9 +1,8 @@
-#define _POSIX_C_SOURCE 200809L
-
 #include "tools/scene_player.h"
 
 #include "tests/measure.h"
 #include "tests/oracle.h"
+#include "tests/scenes.h"
 
 #include <complex.h>
 #include <math.h>
@@ -12,10 +11,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -27,24 +23,9 @@ static const double MASS_KG = 0.5;
 static const double A = 0.1;
 static const double G = 0.02;
 
-static Scene* read_scene(const char* text) {
-  char path[] = "/tmp/hooke_player_XXXXXX";
-  char error[SCENE_ERROR_SIZE] = "";
-  const int fd = mkstemp(path);
-  assert_true(fd >= 0);
-  assert_int_equal(write(fd, text, strlen(text)), strlen(text));
-  assert_int_equal(close(fd), 0);
-  Scene* const scene = scene_new(path, SCENE_FOR_SOUND, error, sizeof(error));
-  assert_int_equal(unlink(path), 0);
-  if (!scene) {
-    fail_msg("%s", error);
-  }
-  return scene;
-}
-
 /* All frames, in blocks; to be freed. */
 static double* play_blocks(const char* text, double rate_hz, uint32_t block, size_t* n) {
-  Scene* const scene = read_scene(text);
+  Scene* const scene = scenes_read(text);
   ScenePlayer* const player = scene_player_new(scene, rate_hz > 0.0 ? rate_hz : scene->rate_hz);
   assert_non_null(player);
   *n = scene_player_length(player);
@@ -161,8 +142,8 @@ static void events_of_one_step_keep_the_order_of_the_file(void** state) {
 
 static void a_push_that_is_over_leaves_no_force(void** state) {
   (void)state;
-  Scene* const scene = read_scene(MASS "at 0 push a 0.1 for 0.3\nat 0.1 push a 0.7 for 0.3\n"
-                                       "at 0.2 push a 1e9 for 0.1\npickup a 1\nend 1\n");
+  Scene* const scene = scenes_read(MASS "at 0 push a 0.1 for 0.3\nat 0.1 push a 0.7 for 0.3\n"
+                                        "at 0.2 push a 1e9 for 0.1\npickup a 1\nend 1\n");
   ScenePlayer* const player = scene_player_new(scene, RATE_HZ);
   double out[400];
   scene_player_run(player, out, 350);
@@ -233,8 +214,8 @@ static void what_no_longer_moves_is_brought_to_rest(void** state) {
 static void an_explosion_is_noticed(void** state) {
   (void)state;
   Scene* const scene =
-      read_scene("rate 1000\nmass a 1\nmass b 1\nground g\nspring a g 1e7\nspring b g 1\n"
-                 "at 0 displace a 1\npickup b 1\nend 1\n");
+      scenes_read("rate 1000\nmass a 1\nmass b 1\nground g\nspring a g 1e7\nspring b g 1\n"
+                  "at 0 displace a 1\npickup b 1\nend 1\n");
   ScenePlayer* const player = scene_player_new(scene, RATE_HZ);
   double out[1000];
   scene_player_run(player, out, 10);

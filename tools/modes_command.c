@@ -94,6 +94,11 @@ static bool is_stable(const Mode* mode) {
   return mode->region != POLE_UNSTABLE;
 }
 
+/* The time it is heard for [s]: rounding may make an undamped mode seem to grow. */
+static double heard_tau(const Mode* mode) {
+  return is_stable(mode) && mode->tone.tau_s < 0.0 ? HUGE_VAL : mode->tone.tau_s;
+}
+
 static bool is_pair(const Mode* mode) {
   return cimag(mode->analog[0]) != 0.0;
 }
@@ -129,7 +134,7 @@ static void print_mode(uint32_t number, const Mode* mode) {
          pole_region_text(mode->region));
   print_column(14, 5, mode->tone.f0_hz);
   print_column(12, 4, mode->warp_cents);
-  print_column(14, 7, mode->tone.tau_s);
+  print_column(14, 7, heard_tau(mode));
   print_column(12, 9, mode->radius);
   printf("  %s\n", is_stable(mode) ? "stable" : "unstable");
 }
@@ -172,7 +177,7 @@ static void print_csv(const Modes* modes) {
            pole_region_text(mode->region));
     print_cell(mode->tone.f0_hz);
     print_cell(mode->warp_cents);
-    print_cell(mode->tone.tau_s);
+    print_cell(heard_tau(mode));
     print_cell(mode->radius);
     print_cell(mode->paper_radius);
     printf("%d,%d,%d,%.17g\n", is_stable(mode), modes->is_stable, modes->paper_is_stable,
@@ -205,7 +210,7 @@ static void print_json_mode(uint32_t number, const Mode* mode) {
   print_pair("poles", mode->pole);
   print_member("frequency_hz", mode->tone.f0_hz);
   print_member("warp_cents", mode->warp_cents);
-  print_member("tau_s", mode->tone.tau_s);
+  print_member("tau_s", heard_tau(mode));
   print_member("radius", mode->radius);
   print_member("paper_radius", mode->paper_radius);
   printf(", \"stable\": %s}", truth(is_stable(mode)));
