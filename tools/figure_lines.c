@@ -1,5 +1,6 @@
 #include "tools/figure_groups.h"
-#include "tools/figure_plane.h"
+
+#include "core/pole.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -8,19 +9,22 @@ static const double PI = 3.14159265358979323846;
 
 enum { N_LINE = 100 };
 
-static void write_point(FILE* data, Pole pole) {
-  const double mu = figure_plane_mu(pole);
-  (void)fprintf(data, "%.5f %.5f\n", figure_plane_sigma(pole), mu > 0.0 ? mu : 0.0);
+/* The frequency `eighth` π/8, dense towards the singular point. */
+static void write_frequency(FILE* data, int eighth) {
+  for (int i = 0; i < N_LINE; ++i) {
+    const double sigma_h = -0.5 * sin(0.5 * PI * i / N_LINE);
+    const double mu_h = pole_line_of_frequency(sigma_h, eighth * PI / 8.0);
+    (void)fprintf(data, "%.5f %.5f\n", sigma_h, mu_h);
+  }
+  (void)fprintf(data, "%.5f %.5f\n\n", POLE_SINGULAR_SIGMA_H, POLE_SINGULAR_MU_H);
 }
 
-/* The frequency `eighth` π/8: where it starts, undamped, and onwards to all damping. */
-static void write_frequency(FILE* data, int eighth) {
-  const double angle = eighth * PI / 8.0;
+/* An edge from μh = 0 to 2. */
+static void write_edge(FILE* data, double (*edge)(double)) {
   for (int i = 0; i <= N_LINE; ++i) {
-    const double radius = 1.0 - 0.999 * i / N_LINE;
-    write_point(data, figure_plane_tone(angle, fmin(log(radius), -1e-9)));
+    const double s = sin(0.5 * PI * i / N_LINE);
+    (void)fprintf(data, "%.5f %.5f\n", edge(2.0 * s * s), 2.0 * s * s);
   }
-  (void)fputc('\n', data);
 }
 
 static Status write_frequencies(FILE* data) {
@@ -29,44 +33,34 @@ static Status write_frequencies(FILE* data) {
     write_frequency(data, eighth);
   }
   figure_block(data, "border: of the masses that vibrate");
-  for (int i = 0; i <= N_LINE; ++i) {
-    const double w = 2.0 * i / N_LINE;
-    write_point(data, (Pole){w * w, figure_plane_border(FIGURE_BORDER_VIBRATES, w)});
-  }
+  write_edge(data, pole_edge_vibrating);
   return STATUS_OK;
 }
 
-/* Real poles from `first` to `last` damping γh, dense at both ends. */
-static void write_real(FILE* data, double damping, bool is_at_pi, double first, double last) {
+/* Real poles ±r from σh `first` to `last`, dense at both ends; what lies below μh = 0 is left out.
+ */
+static void write_branch(FILE* data, double r, bool is_at_pi, double first, double last) {
   for (int i = 0; i <= N_LINE; ++i) {
     const double s = sin(0.5 * PI * i / N_LINE);
-    write_point(data, figure_plane_real(damping, is_at_pi, first + (last - first) * s * s));
+    const double sigma_h = first + (last - first) * s * s;
+    const double mu_h = pole_branch_of_damping(sigma_h, r, is_at_pi);
+    if (mu_h >= 0.0) {
+      (void)fprintf(data, "%.5f %.5f\n", sigma_h, mu_h);
+    }
   }
 }
 
-/* A line of equal decay: real poles at z = r, up through the complex poles, real poles at −r.  The
- * real ones end where the two meet, g = 1 + r², or where they leave the picture, μ = 0. */
+/* A line of equal decay: real poles at r, up through the complex ones, real poles at −r.  The real
+ * ones end where the two meet, γh = 1 + r², or where they leave the picture, μh = 0. */
 static void write_decay(FILE* data, double damping) {
   const double r = exp(damping);
-  const double start = 1.0 - r * r;
-  const double meet = 1.0 + r * r;
-  const double creep = 2.0 * (1.0 - r) * (1.0 + sqrt(1.0 - r)) / r;
-  const double flip = 2.0 * (1.0 + r) * (sqrt(1.0 + r) - 1.0) / r;
-  write_real(data, damping, false, fmin(meet, creep), start);
-  for (int i = 1; i < N_LINE / 4; ++i) {
-    write_point(data, figure_plane_tone(PI * i / (N_LINE / 4.0), damping));
-  }
-  write_real(data, damping, true, start, fmin(meet, flip));
+  const double upright = pole_line_of_damping(r);
+  const double meet = -0.5 * (1.0 + r * r);
+  const double creep = -(1.0 - r) * (1.0 + sqrt(1.0 - r)) / r;
+  const double flip = -(1.0 + r) * (sqrt(1.0 + r) - 1.0) / r;
+  write_branch(data, r, false, fmax(meet, creep), upright);
+  write_branch(data, r, true, upright, fmax(meet, flip));
   (void)fputc('\n', data);
-}
-
-/* From μ = 0, where w = g/2 = 2√2 − 2, to the undamped. */
-static void write_limit(FILE* data) {
-  const double first = 2.0 * sqrt(2.0) - 2.0;
-  for (int i = 0; i <= N_LINE; ++i) {
-    const double w = first + (2.0 - first) * i * i / (N_LINE * N_LINE);
-    write_point(data, (Pole){w * w, figure_plane_border(FIGURE_BORDER_LIMIT, w)});
-  }
 }
 
 static Status write_decays(FILE* data) {
@@ -76,7 +70,7 @@ static Status write_decays(FILE* data) {
     write_decay(data, dampings[i]);
   }
   figure_block(data, "border: of the stable masses");
-  write_limit(data);
+  write_edge(data, pole_edge_stable);
   return STATUS_OK;
 }
 
@@ -89,13 +83,14 @@ static const char frequencies_script[] =
     "  name = word('π/8 π/4 3π/8 π/2 5π/8 3π/4 7π/8', k)\n"
     "  set label k + 1 name at graph 1.015, first 2 * sin(k * pi / 16) font ',12'\n"
     "}\n"
+    "set label 10 'border of vibration' at -0.54,0.15 font ',12'\n"
     "set rmargin 11\n"
     "plot [-0.55:0][0:2.45] \\\n"
     "  data index 'border' with filledcurves closed fc rgb vibrates notitle, \\\n"
     "  data index 'frequency' with lines lw 2 lc rgb blue title 'equal ω_d h, as stepped', \\\n"
     "  for [k = 1:5] k * pi / 8 with lines lw 1.5 dt 3 lc rgb grey \\\n"
     "    title (k == 1 ? 'the same of the oscillator' : ''), \\\n"
-    "  data index 'border' with lines lw 1.5 dt 2 lc rgb red title 'border of vibration'\n";
+    "  data index 'border' with lines lw 1.5 dt 2 lc rgb red notitle\n";
 
 static const char decays_script[] =
     "set xlabel 'σ h  [per sample]'\n"

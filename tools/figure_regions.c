@@ -55,32 +55,23 @@ static Status write_loci(FILE* data) {
   return STATUS_OK;
 }
 
-/* From `first` to `last`, dense at both ends, in the s-plane. */
-static void write_border(FILE* data, FigureBorder border, double first, double last) {
+/* An edge of the s-plane from one μh to another, dense at both ends. */
+static void write_edge(FILE* data, double (*edge)(double), double first, double last) {
   for (int i = 0; i <= N_BORDER; ++i) {
     const double s = sin(0.5 * PI * i / N_BORDER);
-    const double w = first + (last - first) * s * s;
-    const Pole pole = {.a = w * w, .g = figure_plane_border(border, w)};
-    const double mu = figure_plane_mu(pole);
-    (void)fprintf(data, "%.5f %.5f\n", figure_plane_sigma(pole), mu > 0.0 ? mu : 0.0);
+    const double mu = first + (last - first) * s * s;
+    (void)fprintf(data, "%.5f %.5f\n", edge(mu), mu);
   }
 }
 
-/* Where the borders come down to μ = 0: w = g/2. */
-static const double TURNS_W = 0.73205080756887729;
-static const double LIMIT_W = 0.82842712474619010;
-
 static void write_corners(FILE* data) {
+  static const double mu[] = {0.1, 0.8, 0.87};
   figure_block(data, "corners: sigma h, mu h");
-  static const double first[] = {0.1, 0.8};
-  static const double second[] = {0.1, 0.8, 0.87};
   for (int i = 0; i < 2; ++i) {
-    (void)fprintf(data, "%.6f %.2f\n", figure_plane_corner(FIGURE_BORDER_VIBRATES, first[i]),
-                  first[i]);
+    (void)fprintf(data, "%.6f %.2f\n", pole_edge_vibrating(mu[i]), mu[i]);
   }
   for (int i = 0; i < 3; ++i) {
-    (void)fprintf(data, "%.6f %.2f\n", figure_plane_corner(FIGURE_BORDER_TURNS, second[i]),
-                  second[i]);
+    (void)fprintf(data, "%.6f %.2f\n", pole_edge_turning(mu[i]), mu[i]);
   }
   figure_block(data, "singular: sigma h, mu h");
   (void)fprintf(data, "-0.5 %.6f\n", figure_plane_singular_mu());
@@ -88,14 +79,14 @@ static void write_corners(FILE* data) {
 
 static Status write_plane(FILE* data) {
   figure_block(data, "vibrates: sigma h, mu h along its border");
-  write_border(data, FIGURE_BORDER_VIBRATES, 0.0, 2.0);
+  write_edge(data, pole_edge_vibrating, 0.0, 2.0);
   figure_block(data, "creeps");
-  write_border(data, FIGURE_BORDER_VIBRATES, 0.0, 1.0);
-  write_border(data, FIGURE_BORDER_TURNS, 1.0, TURNS_W);
+  write_edge(data, pole_edge_vibrating, 0.0, POLE_SINGULAR_MU_H);
+  write_edge(data, pole_edge_turning, POLE_SINGULAR_MU_H, 0.0);
   figure_block(data, "flips");
-  write_border(data, FIGURE_BORDER_VIBRATES, 2.0, 1.0);
-  write_border(data, FIGURE_BORDER_TURNS, 1.0, TURNS_W);
-  write_border(data, FIGURE_BORDER_LIMIT, LIMIT_W, 2.0);
+  write_edge(data, pole_edge_vibrating, 2.0, POLE_SINGULAR_MU_H);
+  write_edge(data, pole_edge_turning, POLE_SINGULAR_MU_H, 0.0);
+  write_edge(data, pole_edge_stable, 0.0, 2.0);
   write_corners(data);
   return STATUS_OK;
 }

@@ -4,23 +4,6 @@
 
 #include <stddef.h>
 
-FigureState figure_scheme_step(FigureScheme scheme, Pole pole, FigureState state) {
-  const double x = state.x;
-  const double u = state.u;
-  const double pushed = u - pole.a * x - pole.g * u;
-  switch (scheme) {
-  case FIGURE_FORWARD:
-    return (FigureState){.x = x + u, .u = pushed};
-  case FIGURE_BACKWARD: {
-    const double later = (u - pole.a * x) / (1.0 + pole.a + pole.g);
-    return (FigureState){.x = x + later, .u = later};
-  }
-  case FIGURE_SYMPLECTIC:
-    break;
-  }
-  return (FigureState){.x = x + pushed, .u = pushed};
-}
-
 double figure_scheme_energy(Pole pole, FigureState state) {
   return 0.5 * state.u * state.u + 0.5 * pole.a * state.x * state.x;
 }
@@ -31,20 +14,22 @@ static Status hang(Network* network, Pole pole, uint32_t* mass) {
   status = status ? status : network_add_ground(network, &ground);
   status = status ? status : network_add_spring(network, *mass, ground, pole.a);
   status = status ? status : network_add_damper(network, *mass, ground, pole.g);
-  return status ? status : network_check(network, NULL);
+  status = status ? status : network_check(network, NULL);
+  return status ? status : network_prepare(network);
 }
 
-Status figure_scheme_play(Pole pole, FigureState start, uint32_t n_states, FigureState* out) {
+Status figure_scheme_play(
+    NetworkScheme scheme, Pole pole, FigureState start, uint32_t n_states, FigureState* out) {
   uint32_t mass = 0;
   Network* const network = network_new();
-  const Status status = network ? hang(network, pole, &mass) : STATUS_NO_MEMORY;
+  Status status = network ? hang(network, pole, &mass) : STATUS_NO_MEMORY;
   if (status == STATUS_OK) {
     network->x[mass] = start.x;
     network->v[mass] = start.u;
-    for (uint32_t n = 0; n < n_states; ++n) {
-      out[n] = (FigureState){.x = network->x[mass], .u = network->v[mass]};
-      network_step(network, 1.0);
-    }
+  }
+  for (uint32_t n = 0; status == STATUS_OK && n < n_states; ++n) {
+    out[n] = (FigureState){.x = network->x[mass], .u = network->v[mass]};
+    status = network_step_by(network, scheme, 1.0);
   }
   network_free(network);
   return status;

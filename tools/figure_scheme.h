@@ -1,5 +1,5 @@
 /**
-   One mass under three methods of Euler, and strings and masses as the reference engine plays them.
+   Strings and single masses as the reference engine plays them.
 
    Time is counted in steps: h = 1 s, m = 1 kg.  So a mass is a Pole (core/pole.h) with the spring
    a [N/m] and the damper g [kg/s], and its velocity is u = h v [m, per step].
@@ -8,14 +8,11 @@
 #ifndef HOOKE_TOOLS_FIGURE_SCHEME_H
 #define HOOKE_TOOLS_FIGURE_SCHEME_H
 
+#include "core/network_schemes.h"
 #include "core/pole.h"
 #include "core/status.h"
 
 #include <stdint.h>
-
-/** Forward: all from the old state.  Backward: all from the new.  Symplectic: velocity first, then
- * position with the new velocity, [MQ09] (5). */
-typedef enum { FIGURE_FORWARD, FIGURE_BACKWARD, FIGURE_SYMPLECTIC } FigureScheme;
 
 /** Where a mass is. */
 typedef struct {
@@ -23,21 +20,19 @@ typedef struct {
   double u; /**< Velocity [m per step] */
 } FigureState;
 
-/** One step of `scheme`. */
-FigureState figure_scheme_step(FigureScheme scheme, Pole pole, FigureState state);
-
 /** ½ u² + ½ a x² [J].  Without damping, forward Euler multiplies it by 1 + a in each step, backward
  * Euler divides it by as much. */
 double figure_scheme_energy(Pole pole, FigureState state);
 
 /**
-   Play one mass with core/network.
+   Play one mass with core/network_schemes.
 
    @param start     State before the first step
    @param[out] out  n_states states, out[0] being `start`
-   @return STATUS_OK or STATUS_NO_MEMORY; allocates
+   @return STATUS_OK; STATUS_NO_MEMORY; STATUS_NO_CONVERGENCE; allocates
 */
-Status figure_scheme_play(Pole pole, FigureState start, uint32_t n_states, FigureState* out);
+Status figure_scheme_play(
+    NetworkScheme scheme, Pole pole, FigureState start, uint32_t n_states, FigureState* out);
 
 /**
    Play a string between two fixed ends with core/network: its first mass is displaced by 1 m and

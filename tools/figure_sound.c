@@ -31,7 +31,7 @@ static double turned(Pole pole, double re, double im, double n) {
 }
 
 double figure_sound_discrete(Pole pole, FigureState start, double n) {
-  const double next = start.x + figure_scheme_step(FIGURE_SYMPLECTIC, pole, start).u;
+  const double next = start.x + start.u - pole.a * start.x - pole.g * start.u;
   const double r = pole_radius(pole);
   const double angle = pole_angle(pole);
   /* x[1] = Re(C z) = r (Re C cos θ − Im C sin θ). */

@@ -16,7 +16,7 @@ static Status write_ring(FILE* data) {
   FigureState state[N_RING];
   const Pole pole = figure_sound_ring();
   const FigureState rest = {.x = 1.0, .u = 0.0};
-  const Status status = figure_scheme_play(pole, rest, N_RING, state);
+  const Status status = figure_scheme_play(NETWORK_SYMPLECTIC, pole, rest, N_RING, state);
   figure_block(data, "curves: n, x by the discrete start, by the continuous start");
   for (int i = 0; i <= FINE * (N_SHOWN - 1); ++i) {
     const double n = (double)i / FINE;
@@ -43,10 +43,11 @@ static Status write_retuned(FILE* data) {
   FigureState plain[N_RING];
   FigureState tuned[N_RING];
   const FigureState start = figure_sound_cosine_start(figure_sound_retuned());
-  Status status = figure_scheme_play(figure_sound_retuned(), start, N_RING, tuned);
+  Status status =
+      figure_scheme_play(NETWORK_SYMPLECTIC, figure_sound_retuned(), start, N_RING, tuned);
   status = status
                ? status
-               : figure_scheme_play(figure_sound_ring(),
+               : figure_scheme_play(NETWORK_SYMPLECTIC, figure_sound_ring(),
                                     figure_sound_cosine_start(figure_sound_ring()), N_RING, plain);
   figure_block(data, "wanted: n, x");
   for (uint32_t i = 0; i <= FINE * (N_SHOWN - 1); ++i) {

@@ -19,18 +19,13 @@ static Status write_undamped(FILE* data) {
   return STATUS_OK;
 }
 
-/* Where symplectic Euler at μh ceases to be stable: σh = 2 − √(8 − μ²h²). */
-static double last_sigma(double mu_h) {
-  return 2.0 - sqrt(8.0 - mu_h * mu_h);
-}
-
 /* One line of constant μh; a line is broken where the motion changes at once. */
 static void write_line(FILE* data, double mu_h) {
   PoleRegion last = POLE_REGION_COUNT;
   figure_block(data, "line: sigma h, omega_d h, sigma_d h");
   for (int i = 0; i <= 2 * N_CURVE; ++i) {
-    const double sigma_h = last_sigma(mu_h) * i / (2.0 * N_CURVE);
-    const Pole pole = figure_plane_mass(sigma_h, mu_h);
+    const double sigma_h = pole_edge_stable(mu_h) * i / (2.0 * N_CURVE);
+    const Pole pole = pole_from_eigenvalue(1.0, sigma_h, mu_h);
     const PoleRegion region = pole_region(pole);
     if (region == POLE_REAL_AT_PI && last == POLE_REAL_AT_ZERO) {
       (void)fprintf(data, "%.5f NaN %.5f\n", sigma_h, figure_plane_damping(pole));
@@ -40,32 +35,32 @@ static void write_line(FILE* data, double mu_h) {
   }
 }
 
-static void write_corner(FILE* data, FigureBorder border, double mu_h) {
-  const double sigma_h = figure_plane_corner(border, mu_h);
-  const Pole pole = figure_plane_mass(sigma_h, mu_h);
+static void write_corner(FILE* data, double (*edge)(double), double mu_h) {
+  const double sigma_h = edge(mu_h);
+  const Pole pole = pole_from_eigenvalue(1.0, sigma_h, mu_h);
   (void)fprintf(data, "%.6f %.5f %.5f\n", sigma_h, pole_angle(pole), figure_plane_damping(pole));
 }
 
 static Status write_low(FILE* data) {
   write_line(data, 0.1);
   figure_block(data, "corners: as above");
-  write_corner(data, FIGURE_BORDER_VIBRATES, 0.1);
-  write_corner(data, FIGURE_BORDER_TURNS, 0.1);
+  write_corner(data, pole_edge_vibrating, 0.1);
+  write_corner(data, pole_edge_turning, 0.1);
   return STATUS_OK;
 }
 
 static Status write_middle(FILE* data) {
   write_line(data, 0.8);
   figure_block(data, "corners: as above");
-  write_corner(data, FIGURE_BORDER_VIBRATES, 0.8);
-  write_corner(data, FIGURE_BORDER_TURNS, 0.8);
+  write_corner(data, pole_edge_vibrating, 0.8);
+  write_corner(data, pole_edge_turning, 0.8);
   return STATUS_OK;
 }
 
 static Status write_high(FILE* data) {
   write_line(data, 0.87);
   figure_block(data, "corners: as above");
-  write_corner(data, FIGURE_BORDER_TURNS, 0.87);
+  write_corner(data, pole_edge_turning, 0.87);
   return STATUS_OK;
 }
 

@@ -1,5 +1,6 @@
 #include "tools/report_pins.h"
 
+#include "core/pole.h"
 #include "tools/figure_plane.h"
 #include "tools/figure_sound.h"
 
@@ -39,14 +40,6 @@ static double ring_omega(double unused) {
   return pole_angle(figure_sound_ring()) * FIGURE_RING_RATE_HZ;
 }
 
-static double corner_of_vibration(double mu_h) {
-  return figure_plane_corner(FIGURE_BORDER_VIBRATES, mu_h);
-}
-
-static double corner_of_turning(double mu_h) {
-  return figure_plane_corner(FIGURE_BORDER_TURNS, mu_h);
-}
-
 static double singular_mu(double unused) {
   (void)unused;
   return figure_plane_singular_mu();
@@ -55,11 +48,11 @@ static double singular_mu(double unused) {
 /* ω0 and γ of the string are stated to more digits than doubles gave: 1 − exp(−2h/τ) is 3.3e-4 and
  * keeps twelve.  To 20 digits they are 5293.2393003368564032 and 7.4628577364144843712. */
 static const ReportPin pins[] = {
-    {"10, 12", "σh at μh = 0.1: ceases to vibrate", "", "-0.1954", corner_of_vibration, 0.1, 0.0},
-    {"10, 12", "σh at μh = 0.1: begins to flip", "", "-0.7292", corner_of_turning, 0.1, 0.0},
-    {"10, 13", "σh at μh = 0.8: ceases to vibrate", "", "-0.4983", corner_of_vibration, 0.8, 0.0},
-    {"10, 13", "σh at μh = 0.8: begins to flip", "", "-0.5362", corner_of_turning, 0.8, 0.0},
-    {"10, 14", "σh at μh = 0.87: passes π/2", "", "-0.4977", corner_of_turning, 0.87, 0.0},
+    {"10, 12", "σh at μh = 0.1: ceases to vibrate", "", "-0.1954", pole_edge_vibrating, 0.1, 0.0},
+    {"10, 12", "σh at μh = 0.1: begins to flip", "", "-0.7292", pole_edge_turning, 0.1, 0.0},
+    {"10, 13", "σh at μh = 0.8: ceases to vibrate", "", "-0.4983", pole_edge_vibrating, 0.8, 0.0},
+    {"10, 13", "σh at μh = 0.8: begins to flip", "", "-0.5362", pole_edge_turning, 0.8, 0.0},
+    {"10, 14", "σh at μh = 0.87: passes π/2", "", "-0.4977", pole_edge_turning, 0.87, 0.0},
     {"10", "μh of the singular point, √3/2, at γh = 1", "", "0.866025404", singular_mu, 0.0, 0.0},
     {"18", "r of the first experiment", "", "0.97467943448090", ring_radius, 0.0, 0.0},
     {"18", "ω_d of the first experiment", "rad/s", "817.7132374981528", ring_omega, 0.0, 0.0},
