@@ -155,6 +155,19 @@ static void a_push_that_is_over_leaves_no_force(void** state) {
   scene_free(scene);
 }
 
+/* 1e17 + 1 − 1e17 is 0 in double. */
+static void a_push_ends_before_the_next_begins(void** state) {
+  (void)state;
+  Scene* const scene = scenes_read(MASS "at 0.1 push a 1 for 0.3\nat 0 push a 1e17 for 0.1\n"
+                                        "pickup a 1\nend 1\n");
+  ScenePlayer* const player = scene_player_new(scene, RATE_HZ);
+  double out[101];
+  scene_player_run(player, out, 101);
+  assert_true(scene->network->force[0] == 1.0);
+  scene_player_free(player);
+  scene_free(scene);
+}
+
 static void block_size_does_not_change_the_sound(void** state) {
   (void)state;
   static const char text[] =
@@ -234,6 +247,7 @@ int main(void) {
       cmocka_unit_test(events_come_by_time_and_not_by_line),
       cmocka_unit_test(events_of_one_step_keep_the_order_of_the_file),
       cmocka_unit_test(a_push_that_is_over_leaves_no_force),
+      cmocka_unit_test(a_push_ends_before_the_next_begins),
       cmocka_unit_test(block_size_does_not_change_the_sound),
       cmocka_unit_test(times_stay_where_they_are_at_another_rate),
       cmocka_unit_test(a_scene_has_the_pitch_it_is_made_for),
