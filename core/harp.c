@@ -18,61 +18,16 @@ static const double GESTURE_S = 0.004;
 static const double VELOCITY_HARDNESS = 0.25;
 static const double VELOCITY_NEUTRAL = 0.75;
 
-/* Where a string is read: the places of its taps, in the order of the mix buffers. */
-typedef struct {
-  double place[CHAIN_MAX_TAPS];
-  uint32_t n_taps;
-  bool is_stereo;
-  bool is_fading;
-} Reading;
-
 static double clamp(double value, double low, double high) {
   return fmin(fmax(value, low), high);
 }
 
-/* A place beyond an end folds back, so that a wide pair near a wall has no silent side. */
-static double fold(double place) {
-  const double inside = fabs(place);
-  return inside > 1.0 ? 2.0 - inside : inside;
-}
-
-/* Left and right, or the one that is both. */
-static void add_places(Reading* reading, HarpPickups pickups) {
-  const double half = reading->is_stereo ? 0.5 * pickups.spread : 0.0;
-  reading->place[reading->n_taps++] = fold(pickups.place - half);
-  if (reading->is_stereo) {
-    reading->place[reading->n_taps++] = fold(pickups.place + half);
-  }
-}
-
-/* Only what is heard is read: one pickup if both coincide, the old ones only while they fade. */
-static Reading reading_of(const Harp* harp) {
-  const bool is_fading = harp->fade.n_left > 0;
-  Reading reading = {
-      .is_fading = is_fading,
-      .is_stereo = harp->heard.spread > 0.0 || (is_fading && harp->fading.spread > 0.0),
-  };
-  add_places(&reading, harp->heard);
-  if (is_fading) {
-    add_places(&reading, harp->fading);
-  }
-  return reading;
-}
-
-/* Start towards the patch's pickups; while a fade is under way they wait for its end. */
-static void move_pickups(Harp* harp) {
-  const HarpPickups wanted = {harp->patch.pickup, harp->patch.spread};
-  const bool is_there = wanted.place == harp->heard.place && wanted.spread == harp->heard.spread;
-  if (harp->fade.n_left == 0 && !is_there) {
-    harp->fading = harp->heard;
-    harp->heard = wanted;
-    ramp_init(&harp->fade, 0.0f);
-    ramp_to(&harp->fade, 1.0f, harp->n_fade);
-  }
+static HarpPlaces places_of(const Patch* patch) {
+  return (HarpPlaces){patch->pickup, patch->spread};
 }
 
 /* The strings awake, and where they are read. */
-static uint32_t gather(Harp* harp, const Reading* reading) {
+static uint32_t gather(Harp* harp, const HarpReading* reading) {
   uint32_t n_parts = 0;
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
     Chain* const chain = &harp->strings[key].chain;
@@ -89,12 +44,12 @@ static uint32_t gather(Harp* harp, const Reading* reading) {
 
 /* Fade from the old pickups, and set the level. */
 static void
-mix_down(Harp* harp, const Reading* reading, uint32_t n_frames, float* left, float* right) {
-  const uint32_t n_sides = reading->is_stereo ? 2 : 1;
+mix_down(Harp* harp, const HarpReading* reading, uint32_t n_frames, float* left, float* right) {
+  const uint32_t n_sides = reading->n_sides;
   float* const sides[2] = {left, right};
   for (uint32_t n = 0; n < n_frames; ++n) {
     const float level = ramp_next(&harp->level);
-    const float fade = ramp_next(&harp->fade);
+    const float fade = ramp_next(&harp->pickups.fade);
     for (uint32_t s = 0; s < n_sides; ++s) {
       const float now = harp->mix[s][n];
       const float old = reading->is_fading ? harp->mix[n_sides + s][n] : now;
@@ -114,7 +69,7 @@ static uint32_t least(uint32_t a, uint32_t b) {
 static uint32_t stretch(const Harp* harp, uint32_t n_parts, uint32_t n_frames) {
   uint32_t n = least(n_frames, HARP_MIX_FRAMES);
   n = least(n, DOZE_FRAMES - (uint32_t)(harp->frame % DOZE_FRAMES));
-  n = harp->fade.n_left > 0 ? least(n, harp->fade.n_left) : n;
+  n = harp->pickups.fade.n_left > 0 ? least(n, harp->pickups.fade.n_left) : n;
   for (uint32_t i = 0; i < n_parts; ++i) {
     n = least(n, chain_stretch(harp->parts[i].chain));
   }
@@ -131,7 +86,7 @@ static void doze_all(Harp* harp) {
 
 /* Run as many of `n_frames` as can be run in one go; how many they were. */
 static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* right) {
-  const Reading reading = reading_of(harp);
+  const HarpReading reading = harp_pickups_reading(&harp->pickups);
   const uint32_t n_parts = gather(harp, &reading);
   const uint32_t n = stretch(harp, n_parts, n_frames);
   float* out[CHAIN_MAX_TAPS];
@@ -194,7 +149,6 @@ Harp* harp_new(double rate_hz) {
   }
   memset(harp->memory, 0, size);
   lay_out(harp, harp->memory);
-  ramp_init(&harp->fade, 1.0f);
   return harp;
 }
 
@@ -220,8 +174,7 @@ void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_glide) {
   harp->n_fade = n_glide;
   ramp_to(&harp->level, (float)patch->level, n_glide);
   if (n_glide == 0) {
-    harp->heard = (HarpPickups){patch->pickup, patch->spread};
-    ramp_init(&harp->fade, 1.0f);
+    harp_pickups_set(&harp->pickups, places_of(patch));
   }
   retune_all(harp, n_glide);
 }
@@ -287,7 +240,7 @@ void harp_all_sound_off(Harp* harp) {
 
 void harp_run(Harp* harp, uint32_t n_frames, float* left, float* right) {
   for (uint32_t done = 0; done < n_frames;) {
-    move_pickups(harp);
+    harp_pickups_move(&harp->pickups, places_of(&harp->patch), harp->n_fade);
     done += run_stretch(harp, n_frames - done, left + done, right + done);
   }
 }

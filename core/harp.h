@@ -10,6 +10,7 @@
 #ifndef HOOKE_CORE_HARP_H
 #define HOOKE_CORE_HARP_H
 
+#include "core/harp_pickups.h"
 #include "core/harp_string.h"
 #include "core/patch.h"
 #include "core/ramp.h"
@@ -35,12 +36,6 @@ typedef struct {
   bool is_held; /**< It is up, but was down when the pedal was */
 } HarpKey;
 
-/** Where all strings are read. */
-typedef struct {
-  double place;  /**< Fraction of the length */
-  double spread; /**< Between left and right; 0: one pickup */
-} HarpPickups;
-
 /** What is sounding. */
 typedef struct {
   uint32_t n_strings; /**< Strings awake */
@@ -58,10 +53,8 @@ typedef struct {
   double bend_semitones;
   bool is_pedal_down;
   Ramp level;
-  HarpPickups heard;  /**< Where strings are read, or will be once the fade is over */
-  HarpPickups fading; /**< Where they were */
-  Ramp fade;          /**< From `fading` to `heard`: 0 to 1 */
-  uint32_t n_fade;    /**< Frames that the next fade will take */
+  HarpPickups pickups;
+  uint32_t n_fade; /**< Frames that the next fade will take */
   HarpKey keys[HARP_KEYS];
   HarpString strings[HARP_KEYS];
   void* memory;               /**< Memory of all strings; owned */
