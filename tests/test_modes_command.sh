@@ -193,6 +193,8 @@ what_is_wrong_is_refused() {
     refuse 1 "bad.scene:1: found 'mess', expected rate" bad.scene
     printf 'rate 1\nmass a 1\n' >free.scene
     refuse 1 "free.scene:2: found 'a' hanging on no ground" free.scene
+    printf 'rate 1\nmass a 1e-300\nground g\nspring a g 1e300\n' >huge.scene
+    refuse 1 'huge.scene: could not find the modes: its numbers differ too widely' huge.scene
     refuse 1 'none.scene: No such file or directory' none.scene
     refuse 2 'found no scene, expected IN.scene'
     refuse 2 "found 'b.scene' too, expected one scene" a.scene b.scene

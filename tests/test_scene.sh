@@ -150,6 +150,8 @@ broken_scenes_render_nothing() {
     refuse 1 'none.scene: No such file or directory' none.scene out/x.wav
     sed 's/^rate.*/rate 6000.5/' string.scene >bad.scene
     refuse 1 'found a rate of 6000.5 Hz, expected a whole number' bad.scene out/x.wav
+    printf 'rate 1000\nmass a 1e-300\nground g\nspring a g 1e300\npickup a 1\nend 1\n' >bad.scene
+    refuse 1 'bad.scene: could not judge whether it is stable: its numbers differ too widely' bad.scene out/x.wav
     refuse 1 'nowhere/x.wav: No such file or directory' string.scene nowhere/x.wav
 }
 

@@ -244,8 +244,10 @@ static int print(const Command* self, const Modes* modes) {
 static int solve(const Command* self, const Scene* scene) {
   Modes* modes = NULL;
   const double rate_hz = self->rate_hz > 0.0 ? self->rate_hz : scene->rate_hz;
-  const Status status = modes_solve(scene->network, rate_hz, (uint32_t)self->n_lowest, &modes);
+  Status status = modes_solve(scene->network, rate_hz, (uint32_t)self->n_lowest, &modes);
+  status = !status && !(modes->largest_step_s > 0.0) ? STATUS_ILL_SCALED : status;
   if (status) {
+    modes_free(modes);
     return args_fail(&self->args, ARGS_FAILURE, "%s: could not find the modes: %s", self->in,
                      status_text(status));
   }

@@ -12,8 +12,8 @@ extern const char render_help[];
 
    @param argc  Words in `argv`, without the program's name
    @param argv  "render" and what follows, ended by NULL
-   @return ARGS_OK, ARGS_FAILURE, ARGS_USAGE or SCENE_UNSTABLE; unless ARGS_OK, one line is on stderr
-   and no file is left behind.
+   @return ARGS_OK, ARGS_FAILURE, ARGS_USAGE or SCENE_UNSTABLE (tools/scene.h); unless ARGS_OK, one
+   line is on stderr and no file is left behind.
 */
 int render_main(int argc, char** argv);
 

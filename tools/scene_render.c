@@ -149,7 +149,8 @@ refuse(const Args* args, const char* path, const Scene* scene, double rate_hz, d
 
 int scene_render_judge(const Args* args, const char* path, const Scene* scene, double rate_hz) {
   double step_s = 0.0;
-  const Status status = modes_largest_step(scene->network, &step_s);
+  Status status = modes_largest_step(scene->network, &step_s);
+  status = !status && !(step_s > 0.0) ? STATUS_ILL_SCALED : status;
   if (status) {
     return args_fail(args, ARGS_FAILURE,
                      "%s: could not judge whether it is stable: %s; --anyway renders it unjudged",
