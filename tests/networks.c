@@ -1,5 +1,7 @@
 #include "tests/networks.h"
 
+#include "core/complex_of.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -245,7 +247,7 @@ void networks_eigenvalues(size_t order, double* matrix, double complex* values) 
          &n_work, &info);
   assert_int_equal(info, 0);
   for (size_t k = 0; k < order; ++k) {
-    values[k] = CMPLX(space[k], space[order + k]);
+    values[k] = complex_of(space[k], space[order + k]);
   }
   free(space);
 }

@@ -47,7 +47,7 @@ static void eigenvalues(double* matrix, uint32_t order, double complex* values) 
   dgeev_("N", "N", &n, matrix, &n, re, im, &unused, &one, &unused, &one, im + n, &n_work, &info);
   assert_int_equal(info, 0);
   for (uint32_t k = 0; k < order; ++k) {
-    values[k] = oracle_complex(re[k], im[k]);
+    values[k] = complex_of(re[k], im[k]);
   }
   free(space);
 }

@@ -7,6 +7,7 @@
 #ifndef HOOKE_TESTS_ORACLE_H
 #define HOOKE_TESTS_ORACLE_H
 
+#include "core/complex_of.h"
 #include "core/tuning.h"
 
 #include <complex.h>
@@ -19,15 +20,6 @@
   oracle_assert_within(what, (double)(worst), (double)(limit), __FILE__, __LINE__)
 
 void oracle_assert_within(const char* what, double worst, double limit, const char* file, int line);
-
-/** re + j im: not every compiler has C11's CMPLX. */
-static inline double complex oracle_complex(double re, double im) {
-  union {
-    double parts[2];
-    double complex whole;
-  } const number = {.parts = {re, im}};
-  return number.whole;
-}
 
 /** The stiffness K = k1 L + k2 L² and the damping Z = z0 I + z1 L, both n × n. */
 void oracle_forces(StringCoefs coefs, uint32_t n, double* stiffness, double* damping);

@@ -48,9 +48,9 @@ static Ringing mode_of(const Chain* chain, StringCoefs coefs, uint32_t k, double
   }
   const double r = pole_radius(pole);
   const double angle = pole_angle(pole);
-  const double complex z = oracle_complex(r * cos(angle), r * sin(angle));
+  const double complex z = complex_of(r * cos(angle), r * sin(angle));
   const double next = x + (1.0 - pole.g) * u - pole.a * x;
-  const double complex c = oracle_complex(x, (creal(z) * x - next) / cimag(z));
+  const double complex c = complex_of(x, (creal(z) * x - next) / cimag(z));
   assert_true(pole_is_complex(pole));
   return (Ringing){.amplitude = c * sin(PI * k * place), .step = z};
 }
@@ -89,8 +89,8 @@ static double snr_db(Chain* chain, StringCoefs coefs, double seconds, double rat
         const double complex c = modes[k].amplitude;
         const double complex z = modes[k].step;
         /* By hand: the complex product of C minds infinities, and takes ten times as long. */
-        modes[k].amplitude = oracle_complex(creal(c) * creal(z) - cimag(c) * cimag(z),
-                                            creal(c) * cimag(z) + cimag(c) * creal(z));
+        modes[k].amplitude = complex_of(creal(c) * creal(z) - cimag(c) * cimag(z),
+                                        creal(c) * cimag(z) + cimag(c) * creal(z));
         sum += creal(modes[k].amplitude);
       }
       signal += sum * sum;

@@ -25,7 +25,7 @@ static double complex larger_pole(Pole pole) {
   double complex z[2];
   oracle_mass_poles(pole.a, pole.g, z);
   const double complex larger = cabs(z[0]) > cabs(z[1]) ? z[0] : z[1];
-  return oracle_complex(creal(larger), fabs(cimag(larger)));
+  return complex_of(creal(larger), fabs(cimag(larger)));
 }
 
 static FigureState anywhere(Random* random) {

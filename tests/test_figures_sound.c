@@ -15,7 +15,7 @@
 static const double PI = 3.14159265358979323846;
 
 static double complex polar(double r, double angle) {
-  return oracle_complex(r * cos(angle), r * sin(angle));
+  return complex_of(r * cos(angle), r * sin(angle));
 }
 
 static void first_experiment_is_met_by_the_discrete_start_alone(void** state) {

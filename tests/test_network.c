@@ -321,16 +321,16 @@ static void experiment(double x0, double v0, const char* what) {
   enum { SAMPLES = 1000 };
   const double h = 1e-3;
   const double omega0 = 2.0 * PI * 125.0;
-  const double complex z = 0.97467943448090 * cexp(CMPLX(0.0, 817.7132374981528 * h));
+  const double complex z = 0.97467943448090 * cexp(complex_of(0.0, 817.7132374981528 * h));
   Network* const network = networks_mass(1.0, omega0 * omega0, 50.0);
   network->x[0] = x0;
   network->v[0] = v0;
   /* x_n = Re (c zⁿ) with x_0 and x_1 as the scheme has them. */
   const double x1 = x0 + h * (v0 - h * (omega0 * omega0 * x0 + 50.0 * v0));
-  const double complex c = CMPLX(x0, (x0 * creal(z) - x1) / cimag(z));
+  const double complex c = complex_of(x0, (x0 * creal(z) - x1) / cimag(z));
   /* The paper's start: that of the continuous oscillator. */
   const double mu = sqrt(omega0 * omega0 - 625.0);
-  const double complex paper = CMPLX(x0, -(v0 + 25.0 * x0) / mu);
+  const double complex paper = complex_of(x0, -(v0 + 25.0 * x0) / mu);
   double worst = 0.0;
   double worst_paper = 0.0;
   for (int n = 0; n < SAMPLES; ++n) {

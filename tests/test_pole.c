@@ -159,12 +159,12 @@ static void poles_are_the_eigenvalues_of_the_step(void** state) {
 
 /* The discrete motion from x[0] and x[1]: Re(C zⁿ). */
 static double complex amplitude_of(double complex z, double x0, double x1) {
-  return oracle_complex(x0, (creal(z) * x0 - x1) / cimag(z));
+  return complex_of(x0, (creal(z) * x0 - x1) / cimag(z));
 }
 
 static double complex power(Pole pole, int n) {
   return pow(pole_radius(pole), n) *
-         oracle_complex(cos(n * pole_angle(pole)), sin(n * pole_angle(pole)));
+         complex_of(cos(n * pole_angle(pole)), sin(n * pole_angle(pole)));
 }
 
 static void stepped_mass_is_a_power_of_its_pole(void** state) {
@@ -197,7 +197,7 @@ static void continuous_start_is_not_the_discrete_one(void** state) {
   double x = 1.0;
   double u = 0.0;
   const double complex discrete = amplitude_of(power(pole, 1), 1.0, 1.0 - pole.a);
-  const double complex continuous = oracle_complex(1.0, sigma / mu);
+  const double complex continuous = complex_of(1.0, sigma / mu);
   double worst_discrete = 0.0;
   double worst_continuous = 0.0;
   for (int n = 0; n < 200; ++n) {

@@ -47,7 +47,7 @@ static double* play(const char* text, size_t* n) {
 /* The mass after x0 and x1: two poles, z² + (a + g − 2) z + 1 − g = 0. */
 static double response(double x0, double x1, double n) {
   const double half = 0.5 * (2.0 - A - G);
-  const double complex z = oracle_complex(half, sqrt(1.0 - G - half * half));
+  const double complex z = complex_of(half, sqrt(1.0 - G - half * half));
   const double complex weight = (x1 - x0 * conj(z)) / (z - conj(z));
   return n < 0.0 ? 0.0 : 2.0 * creal(weight * cpow(z, n));
 }

@@ -79,7 +79,7 @@ static double spectrum_error(StringCoefs coefs, uint32_t n_masses) {
   for (uint32_t k = 1; k <= n_masses; ++k) {
     const Pole pole = tuning_mode(coefs, n_masses, k);
     const double half = 0.5 * (2.0 - pole.a - pole.g);
-    const double complex root = csqrt(oracle_complex(half * half - (1.0 - pole.g), 0.0));
+    const double complex root = csqrt(complex_of(half * half - (1.0 - pole.g), 0.0));
     /* A pair of poles at a distance feels rounding as 1/distance, and never more than as √ε. */
     const double condition = 1.0 + 1.0 / fmax(2.0 * cabs(root), 1e-8);
     worst = fmax(worst, take_nearest(spectrum, &n_left, half + root) / condition);
