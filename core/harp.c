@@ -79,7 +79,7 @@ static uint32_t stretch(const Harp* harp, uint32_t n_parts, uint32_t n_frames) {
 static void doze_all(Harp* harp) {
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
     if (harp->strings[key].is_awake) {
-      harp_string_doze(&harp->strings[key]);
+      harp_string_doze(&harp->strings[key], DOZE_FRAMES);
     }
   }
 }

@@ -11,8 +11,10 @@ static const double SILENCE = 1e-6;
  */
 static const double STILLNESS = 1e-20;
 
-/* τ of a string that is choked [s]. */
+/* τ of a string that is choked [s]; and when it is let go, should one of its upper modes be slow to
+ * give in. */
 static const double CHOKE_S = 0.005;
+static const double CHOKED_S = 0.1;
 
 static double decay_s(const Patch* patch, uint32_t key) {
   return 1.0 / (patch->damping_per_s * exp2(patch->tracking * ((double)key - 69.0) / 12.0));
@@ -121,14 +123,21 @@ void harp_string_retune(HarpString* string,
       return;
     }
   }
+  string->n_choked = damper == string->damper ? string->n_choked : 0;
   string->damper = damper;
   note_design(string, f0_hz, coefs);
   chain_glide(&string->chain, coefs, n_glide);
 }
 
-void harp_string_doze(HarpString* string) {
+static bool is_choked(const HarpString* string) {
+  return string->damper == DAMPER_CHOKING && string->n_choked >= CHOKED_S * string->rate_hz;
+}
+
+void harp_string_doze(HarpString* string, uint32_t n_frames) {
   string->loudest = fmax(string->loudest, chain_amplitude(&string->chain, HUGE_VAL));
-  if (chain_amplitude(&string->chain, string->a1) < fmax(SILENCE * string->loudest, STILLNESS)) {
+  const double silence = fmax(SILENCE * string->loudest, STILLNESS);
+  if (is_choked(string) || chain_amplitude(&string->chain, string->a1) < silence) {
     harp_string_sleep(string);
   }
+  string->n_choked += string->damper == DAMPER_CHOKING ? n_frames : 0;
 }

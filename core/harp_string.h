@@ -32,6 +32,7 @@ typedef struct {
   double a1;                 /**< (ω0 h)² of its fundamental */
   double headroom;           /**< Of its coefficients, see tuning_headroom() */
   double loudest;            /**< Largest displacement seen since it was last plucked */
+  uint32_t n_choked;         /**< Frames in which it has been choked, at the least */
   bool is_awake;             /**< Whether it moves */
   Damper damper;
 } HarpString;
@@ -69,8 +70,12 @@ void harp_string_pluck(
 void harp_string_retune(
     HarpString* string, const Patch* patch, double bend_semitones, Damper damper, uint32_t n_glide);
 
-/** Put the string to sleep if it has died away to −120 dB of its loudest; to be called now and
- * then. */
-void harp_string_doze(HarpString* string);
+/**
+   Put the string to sleep if it has died away to −120 dB of its loudest, or has been choked for a
+   while.
+
+   @param n_frames  From one call to the next
+*/
+void harp_string_doze(HarpString* string, uint32_t n_frames);
 
 #endif
