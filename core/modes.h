@@ -90,7 +90,8 @@ void modes_free(Modes* modes);
    det(4M − 2h Z − h² K).  Exact to a few roundings, however the network is scaled and damped.
 
    @param[out] step_s  [s]; untouched on failure
-   @return STATUS_OK; STATUS_BAD_ARGUMENT (not checked); STATUS_FREE; STATUS_NO_MEMORY
+   @return STATUS_OK; STATUS_BAD_ARGUMENT (not checked); STATUS_FREE; STATUS_ILL_SCALED (k/m or Z/m
+   is no number); STATUS_NO_MEMORY
 */
 Status modes_largest_step(const Network* network, double* step_s);
 

@@ -78,6 +78,26 @@ static void fill_link(const Frame* frame, FrameLink link, double value, double* 
   }
 }
 
+static bool is_number(double value, double entry) {
+  return entry <= DBL_MAX && (value == 0.0 || entry >= DBL_MIN);
+}
+
+/* Whether no entry of K̂ or Ẑ overflows, nor is lost. */
+static bool has_numbers(const Frame* frame) {
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const FrameLink link = frame->link[l];
+    const double root_a = frame->root[link.a];
+    const double root_b = link.b == FRAME_GROUND ? root_a : frame->root[link.b];
+    const double least = fmax(root_a, root_b);
+    const double most = fmin(root_a, root_b);
+    if (!is_number(link.k, link.k / most / most) || !is_number(link.z, link.z / most / most) ||
+        !is_number(link.k, link.k / least / least) || !is_number(link.z, link.z / least / least)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 /* The one β that the stiffest link between two masses admits, or else the stiffest to ground. */
 static double guess_beta(const Frame* frame) {
   FrameLink stiffest = {.b = FRAME_GROUND};
@@ -141,6 +161,10 @@ Status frame_init(Frame* frame, const Network* network) {
   take_links(frame, &network->dampers, row, false);
   sum_parallel_links(frame);
   free(row);
+  if (!has_numbers(frame)) {
+    frame_clear(frame);
+    return STATUS_ILL_SCALED;
+  }
   return STATUS_OK;
 }
 
@@ -150,13 +174,21 @@ void frame_clear(Frame* frame) {
   *frame = (Frame){0};
 }
 
-double frame_stiffness(const Frame* frame, const double* y) {
-  double sum = 0.0;
-  for (uint32_t l = 0; l < frame->n_links; ++l) {
-    const double length = stretch(frame, frame->link[l], y);
-    sum += frame->link[l].k * length * length;
+FrameForms frame_forms(const Frame* frame, const double complex* y) {
+  FrameForms forms = {0};
+  for (uint32_t i = 0; i < frame->n; ++i) {
+    forms.inertia += y[i] * y[i];
   }
-  return sum;
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const FrameLink link = frame->link[l];
+    double complex length = y[link.a] / frame->root[link.a];
+    if (link.b != FRAME_GROUND) {
+      length -= y[link.b] / frame->root[link.b];
+    }
+    forms.stiffness += link.k * length * length;
+    forms.damping += link.z * length * length;
+  }
+  return forms;
 }
 
 double frame_damping(const Frame* frame, const double* y) {

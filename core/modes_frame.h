@@ -12,6 +12,7 @@
 #include "core/network.h"
 #include "core/status.h"
 
+#include <complex.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -33,12 +34,23 @@ typedef struct {
   FrameLink* link; /**< In order of a, then b */
 } Frame;
 
-/** @return STATUS_OK, or STATUS_NO_MEMORY with nothing to be cleared */
+/** @return STATUS_OK; or, with nothing to be cleared, STATUS_NO_MEMORY, or STATUS_ILL_SCALED where
+ * an entry of K̂ or Ẑ is too large or too small for a number */
 Status frame_init(Frame* frame, const Network* network);
 void frame_clear(Frame* frame);
 
-/** yᵀ K̂ y and yᵀ Ẑ y, link by link: sums of what is not negative, so exact to a few roundings. */
-double frame_stiffness(const Frame* frame, const double* y);
+/** The quadratic forms of a shape. */
+typedef struct {
+  double complex inertia;   /**< yᵀ y */
+  double complex stiffness; /**< yᵀ K̂ y */
+  double complex damping;   /**< yᵀ Ẑ y */
+} FrameForms;
+
+/** The forms of y, without conjugation, link by link: of a real y, sums of what is not negative, so
+ * exact to a few roundings. */
+FrameForms frame_forms(const Frame* frame, const double complex* y);
+
+/** yᵀ Ẑ y of a real y, in the same way. */
 double frame_damping(const Frame* frame, const double* y);
 
 /** Fill K̂ or Ẑ; n × n, column-major, ld = n. */

@@ -1,5 +1,6 @@
 #include "core/retune.h"
 
+#include "core/complex_of.h"
 #include "core/modes.h"
 #include "core/modes_frame.h"
 #include "core/modes_lapack.h"
@@ -7,7 +8,6 @@
 
 #include <complex.h>
 #include <float.h>
-#include <limits.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -39,37 +39,12 @@ typedef struct {
   double q;
 } Path;
 
-/* yᵀ L y without conjugation, for a complex y = u + jv: form(u) − form(v) + j (…), by polarity. */
-typedef double Form(const Frame*, const double*);
-
-static double complex bilinear(const Frame* frame,
-                               Form* form,
-                               const double complex* y,
-                               double* space) {
-  const uint32_t n = frame->n;
-  double* const u = space;
-  double* const v = space + n;
-  double* const sum = space + 2 * (size_t)n;
-  for (uint32_t i = 0; i < n; ++i) {
-    u[i] = creal(y[i]);
-    v[i] = cimag(y[i]);
-    sum[i] = u[i] + v[i];
-  }
-  const double uu = form(frame, u);
-  const double vv = form(frame, v);
-  return CMPLX(uu - vv, form(frame, sum) - uu - vv);
-}
-
 /* p and q with which the shape y solves its own equation for w. */
-static bool fit(Path* path, double complex w, const double complex* y, double* space) {
-  const double h = 1.0 / path->rate_hz;
-  double complex square = 0.0;
-  for (uint32_t i = 0; i < path->frame->n; ++i) {
-    square += y[i] * y[i];
-  }
-  const double complex inertia = -w * w * square;
-  const double complex stiff = (1.0 + h * w) * bilinear(path->frame, frame_stiffness, y, space);
-  const double complex damped = w * bilinear(path->frame, frame_damping, y, space);
+static bool fit(Path* path, double complex w, const double complex* y) {
+  const FrameForms forms = frame_forms(path->frame, y);
+  const double complex inertia = -w * w * forms.inertia;
+  const double complex stiff = (1.0 + w / path->rate_hz) * forms.stiffness;
+  const double complex damped = w * forms.damping;
   const double area = cimag(conj(stiff) * damped);
   path->p = cimag(conj(inertia) * damped) / area;
   path->q = cimag(conj(stiff) * inertia) / area;
@@ -126,7 +101,6 @@ static bool
 settle(Path* path, double complex w, double complex* y, double complex* matrix, int* pivot) {
   const int n = (int)path->frame->n;
   const int one = 1;
-  double* const space = (double*)(matrix + (size_t)n * (size_t)n);
   double last = HUGE_VAL;
   for (int round = 0; round < MOST_ROUNDS; ++round) {
     const Path before = *path;
@@ -134,7 +108,7 @@ settle(Path* path, double complex w, double complex* y, double complex* matrix, 
     factor(path, w, matrix, pivot);
     zgetrs_("N", &n, &one, matrix, &n, pivot, y, &n, &info);
     normalise(path->frame->n, y);
-    if (!fit(path, w, y, space)) {
+    if (!fit(path, w, y)) {
       return false;
     }
     const double change = fmax(fabs(path->p / before.p - 1.0), fabs(path->q / before.q - 1.0));
@@ -148,7 +122,7 @@ settle(Path* path, double complex w, double complex* y, double complex* matrix, 
 
 static double complex wanted_w(double rate_hz, Tone tone, double share) {
   const double complex log_z =
-      CMPLX(-share / (tone.tau_s * rate_hz), 2.0 * PI * tone.f0_hz / rate_hz);
+      complex_of(-share / (tone.tau_s * rate_hz), 2.0 * PI * tone.f0_hz / rate_hz);
   return (cexp(log_z) - 1.0) * rate_hz;
 }
 
@@ -157,7 +131,7 @@ static double complex wanted_w(double rate_hz, Tone tone, double share) {
 static Status
 follow(Path* path, Tone tone, double first, double slope, double complex* matrix, int* pivot) {
   const uint32_t n = path->frame->n;
-  double complex* const y = matrix + (size_t)n * n + 2 * (size_t)n;
+  double complex* const y = matrix + (size_t)n * n;
   double done = 0.0;
   double step = 1.0;
   path->p = first;
@@ -193,7 +167,7 @@ static Status solve_path(const Frame* frame,
                          Retuning* out) {
   const size_t n = frame->n;
   double* const dense = malloc(2 * n * n * sizeof(double));
-  double complex* const space = malloc((n * n + 4 * n) * sizeof(double complex));
+  double complex* const space = malloc((n * n + 2 * n) * sizeof(double complex));
   int* const pivot = malloc(n * sizeof(int));
   Status status = dense && space && pivot ? STATUS_OK : STATUS_NO_MEMORY;
   if (!status) {
@@ -202,7 +176,7 @@ static Status solve_path(const Frame* frame,
         .rate_hz = rate_hz,
         .stiffness = dense,
         .damping = dense + n * n,
-        .y = space + n * n + 3 * n,
+        .y = space + n * n + n,
     };
     frame_fill_stiffness(frame, path.stiffness);
     frame_fill_damping(frame, path.damping);
