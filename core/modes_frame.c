@@ -98,18 +98,36 @@ static bool has_numbers(const Frame* frame) {
   return true;
 }
 
-/* The one β that the stiffest link between two masses admits, or else the stiffest to ground. */
-static double guess_beta(const Frame* frame) {
-  FrameLink stiffest = {.b = FRAME_GROUND};
+/* The β of masses which hang on the ground only: z/m = α + β k/m on a line through two of them. */
+static double guess_beta_to_ground(const Frame* frame) {
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  double z_low = 0.0;
+  double z_high = 0.0;
   for (uint32_t l = 0; l < frame->n_links; ++l) {
     const FrameLink link = frame->link[l];
-    const bool is_between = link.b != FRAME_GROUND;
-    const bool was_between = stiffest.b != FRAME_GROUND;
-    if (is_between == was_between ? link.k > stiffest.k : is_between && link.k > 0.0) {
-      stiffest = link;
+    const double mass = frame->root[link.a] * frame->root[link.a];
+    if (link.k / mass < low) {
+      low = link.k / mass;
+      z_low = link.z / mass;
+    }
+    if (link.k / mass > high) {
+      high = link.k / mass;
+      z_high = link.z / mass;
     }
   }
-  return stiffest.k > 0.0 ? stiffest.z / stiffest.k : 0.0;
+  return high > low ? (z_high - z_low) / (high - low) : 0.0;
+}
+
+/* The β that the stiffest link between two masses admits, if any. */
+static double guess_beta(const Frame* frame) {
+  FrameLink stiffest = {0};
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    if (frame->link[l].b != FRAME_GROUND && frame->link[l].k > stiffest.k) {
+      stiffest = frame->link[l];
+    }
+  }
+  return stiffest.k > 0.0 ? stiffest.z / stiffest.k : guess_beta_to_ground(frame);
 }
 
 /* Whether z_ij = β k_ij between masses, and what is left over to ground is α m. */
