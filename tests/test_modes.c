@@ -203,7 +203,7 @@ static void warping_is_that_of_the_paper(void** state) {
   assert_within("cents",
                 fabs(modes->mode[0].warp_cents - 1200.0 * log2(modes->mode[0].tone.f0_hz / 440.0)),
                 1e-9);
-  assert_within("s", cabs(modes->mode[0].analog[0] - CMPLX(-1.0, mu)) / mu, 4.0 * DBL_EPSILON);
+  assert_within("s", cabs(modes->mode[0].analog[0] - complex_of(-1.0, mu)) / mu, 4.0 * DBL_EPSILON);
   modes_free(modes);
   network_free(network);
 }
