@@ -131,7 +131,7 @@ double pole_edge_stable(double mu_h);
 
    @param sigma_h  −1/2 < σh ≤ 0
    @param angle    ω_d h, 0 to π
-   @return μh ≥ 0; NaN where the line does not pass or an argument is out of its range
+   @return μh ≥ 0; NaN where an argument is out of its range
 */
 double pole_line_of_frequency(double sigma_h, double angle);
 

@@ -1,0 +1,254 @@
+#include "core/retune.h"
+
+#include "core/modes.h"
+#include "core/tuning.h"
+
+#include "tests/networks.h"
+#include "tests/oracle.h"
+#include "tests/random.h"
+
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+static const double PI = 3.14159265358979323846;
+
+static const NetworkKind MODEST = {12, 0.5, 1.0, 1.0, true};
+static const NetworkKind UNDAMPED = {12, 0.5, 1.0, 0.0, false};
+
+static double relative(double value, double truth) {
+  return fabs(value - truth) / fabs(truth);
+}
+
+static void worked_example_of_the_paper_is_met(void** state) {
+  (void)state;
+  Network* const network = networks_string(5, 1.0, 1.0, 1.0);
+  Retuning retuning = {0};
+  assert_int_equal(retune_solve(network, 6000.0, (Tone){440.0, 1.0}, 1, &retuning), STATUS_OK);
+  assert_within("ω0, relative", relative(sqrt(retuning.stiffness_factor), 5293.239300336853),
+                8.0 * DBL_EPSILON);
+  /* γ is printed from 1 − exp(−2h/τ), which loses the digits of 1/h. */
+  assert_within("γ, relative", relative(retuning.damping_factor, 7.46285773640857),
+                6000.0 * DBL_EPSILON);
+  network_free(network);
+}
+
+static void strings_agree_with_their_closed_form(void** state) {
+  (void)state;
+  Random random = random_start();
+  double worst = 0.0;
+  int n_stable = 0;
+  const int n_trials = networks_is_long() ? 3000 : 300;
+  for (int trial = 0; trial < n_trials; ++trial) {
+    const TuningTarget target = {
+        .rate_hz = 48000.0,
+        .tone = {random_log_between(&random, 20.0, 20000.0),
+                 random_log_between(&random, 0.01, 100.0)},
+        .loss = 1.0,
+    };
+    const uint32_t n = 1 + random_below(&random, 100);
+    const double mass_kg = random_log_between(&random, 1e-3, 1e3);
+    const double k = random_log_between(&random, 1e-3, 1e6);
+    const double z = random_log_between(&random, 1e-6, 1e3);
+    StringCoefs coefs = {0};
+    Retuning retuning = {0};
+    assert_int_equal(tuning_solve(&target, n, &coefs), STATUS_OK);
+    Network* const network = networks_string(n, mass_kg, k, z);
+    const Status status = retune_solve(network, target.rate_hz, target.tone, 1, &retuning);
+    const double headroom = tuning_headroom(coefs, n);
+    assert_true(fabs(headroom) < 1e-12 || status == (headroom > 0.0 ? STATUS_OK : STATUS_UNSTABLE));
+    if (!status) {
+      const double h = 1.0 / target.rate_hz;
+      worst = fmax(worst, relative(h * h * k / mass_kg * retuning.stiffness_factor, coefs.k1));
+      worst = fmax(worst, relative(h * z / mass_kg * retuning.damping_factor, coefs.z1));
+      ++n_stable;
+    }
+    network_free(network);
+  }
+  assert_within("k1 and z1, relative", worst, 1e-12);
+  assert_true(n_stable > n_trials / 10);
+}
+
+/* The distance from z to the nearest pole of the step matrix. */
+static double nearest_pole(Network* network, double step_s, double complex z) {
+  const size_t order = 2 * (size_t)network->n_masses;
+  double* const matrix = networks_zeros(order * order);
+  double complex* const values = calloc(order, sizeof(double complex));
+  assert_non_null(values);
+  networks_step_matrix(network, step_s, matrix);
+  networks_eigenvalues(order, matrix, values);
+  double nearest = HUGE_VAL;
+  for (size_t k = 0; k < order; ++k) {
+    nearest = fmin(nearest, cabs(values[k] - z));
+  }
+  free(matrix);
+  free(values);
+  return nearest;
+}
+
+static double complex wanted_pole(double rate_hz, Tone tone) {
+  return cexp(complex_of(-1.0 / (tone.tau_s * rate_hz), 2.0 * PI * tone.f0_hz / rate_hz));
+}
+
+static void undamped_networks_reach_any_mode(void** state) {
+  (void)state;
+  Random random = random_start();
+  double worst = 0.0;
+  for (int trial = 0; trial < 300; ++trial) {
+    Network* const network = networks_random(&random, &UNDAMPED);
+    const uint32_t k = 1 + random_below(&random, network->n_masses);
+    const Tone tone = {random_between(&random, 10.0, 200.0), HUGE_VAL};
+    Retuning retuning = {0};
+    const Status status = retune_solve(network, 48000.0, tone, k, &retuning);
+    assert_true(!status || status == STATUS_UNSTABLE);
+    if (!status) {
+      assert_true(retuning.damping_factor == 0.0);
+      network_scale(network, retuning.stiffness_factor, retuning.damping_factor);
+      Modes* modes = NULL;
+      assert_int_equal(modes_solve(network, 48000.0, 0, &modes), STATUS_OK);
+      worst = fmax(worst, relative(modes->mode[k - 1].tone.f0_hz, tone.f0_hz));
+      assert_true(modes->is_stable);
+      modes_free(modes);
+    }
+    network_free(network);
+  }
+  assert_within("F of the mode, relative", worst, 1e-12);
+}
+
+static void unequal_dampers_are_met_too(void** state) {
+  (void)state;
+  enum { OK, UNSTABLE, UNREACHABLE, N_KINDS };
+  int n_of[N_KINDS] = {0};
+  int n_first = 0;
+  Random random = random_start();
+  double worst = 0.0;
+  const int n_trials = networks_is_long() ? 3000 : 400;
+  for (int trial = 0; trial < n_trials; ++trial) {
+    Network* const network = networks_random(&random, &MODEST);
+    const double rate_hz = 48000.0;
+    const Tone tone = {random_log_between(&random, 20.0, 2000.0),
+                       random_log_between(&random, 1e-3, 10.0)};
+    const uint32_t k = 1 + random_below(&random, network->n_masses) * random_below(&random, 2);
+    Retuning retuning = {-1.0, -1.0};
+    const Status status = retune_solve(network, rate_hz, tone, k, &retuning);
+    if (status) {
+      assert_true(status == STATUS_UNSTABLE || status == STATUS_UNREACHABLE);
+      assert_true(retuning.stiffness_factor == -1.0 && retuning.damping_factor == -1.0);
+      ++n_of[status == STATUS_UNSTABLE ? UNSTABLE : UNREACHABLE];
+    } else {
+      ++n_of[OK];
+      network_scale(network, retuning.stiffness_factor, retuning.damping_factor);
+      const double complex z = wanted_pole(rate_hz, tone);
+      worst = fmax(worst, nearest_pole(network, 1.0 / rate_hz, z));
+      Modes* modes = NULL;
+      assert_int_equal(modes_solve(network, rate_hz, 0, &modes), STATUS_OK);
+      assert_true(modes->is_stable);
+      n_first += cabs(modes->mode[k - 1].pole[0] - z) < 1e-9 ? 1 : 0;
+      modes_free(modes);
+    }
+    network_free(network);
+  }
+  print_message(
+      "  %d met, %d of them in the same place of the list; %d unstable; %d out of reach\n",
+      n_of[OK], n_first, n_of[UNSTABLE], n_of[UNREACHABLE]);
+  /* The oracle's own rounding: dgeev on entries of 1 and their sums. */
+  assert_within("pole", worst, 1e-12);
+  assert_true(n_of[OK] > n_trials / 4 && n_of[UNSTABLE] > 0 && n_of[UNREACHABLE] > 0);
+  assert_true(n_first > 9 * n_of[OK] / 10);
+}
+
+/* A damper on one mass of a string damps less again as it comes to hold the mass still, so there
+ * is a shortest τ.  The rate is so high that the analog eigenvalues tell which. */
+static void one_damper_can_do_only_so_much(void** state) {
+  (void)state;
+  Network* const network = networks_string(9, 1.0, 1.0, 0.0);
+  network_add_damper(network, 2, 9, 1.0);
+  assert_int_equal(network_check(network, NULL), STATUS_OK);
+  double reached = 1.0;
+  double missed = 1e-6;
+  Retuning retuning = {0};
+  for (int n = 0; n < 40; ++n) {
+    const double tau_s = sqrt(reached * missed);
+    const Status status = retune_solve(network, 4.8e6, (Tone){440.0, tau_s}, 1, &retuning);
+    *(status ? &missed : &reached) = tau_s;
+    assert_true(!status || status == STATUS_UNREACHABLE);
+  }
+  print_message("  shortest τ at 440 Hz: %.6f ms\n", 1e3 * reached);
+  /* −σ/μ of the first mode over all dampers: its peak, at Z = 1.54. */
+  double most = 0.0;
+  for (double damping = 1.0; damping < 2.0; damping *= 1.001) {
+    network->dampers.link[0].value = damping;
+    Modes* modes = NULL;
+    assert_int_equal(modes_solve(network, 1e4, 1, &modes), STATUS_OK);
+    const double complex s = modes->mode[0].analog[0];
+    most = fmax(most, -creal(s) / cimag(s));
+    modes_free(modes);
+  }
+  assert_within("of 1/(2π F τ), relative", relative(1.0 / (2.0 * PI * 440.0 * reached), most),
+                2e-3);
+  network_free(network);
+}
+
+static void what_cannot_be_tuned_is_refused(void** state) {
+  (void)state;
+  Retuning out = {-1.0, -1.0};
+  const Tone tone = {100.0, 1.0};
+  Network* const network = networks_string(3, 1.0, 2.0, 3.0);
+  assert_int_equal(retune_solve(network, 0.0, tone, 1, &out), STATUS_BAD_ARGUMENT);
+  assert_int_equal(retune_solve(network, (double)NAN, tone, 1, &out), STATUS_BAD_ARGUMENT);
+  assert_int_equal(retune_solve(network, 1e3, (Tone){0.0, 1.0}, 1, &out), STATUS_BAD_ARGUMENT);
+  assert_int_equal(retune_solve(network, 1e3, (Tone){(double)NAN, 1.0}, 1, &out),
+                   STATUS_BAD_ARGUMENT);
+  assert_int_equal(retune_solve(network, 1e3, (Tone){100.0, 0.0}, 1, &out), STATUS_BAD_ARGUMENT);
+  assert_int_equal(retune_solve(network, 1e3, (Tone){100.0, (double)NAN}, 1, &out),
+                   STATUS_BAD_ARGUMENT);
+  assert_int_equal(retune_solve(network, 1e3, (Tone){500.0, 1.0}, 1, &out), STATUS_UNREACHABLE);
+  assert_int_equal(retune_solve(network, 1e3, (Tone){HUGE_VAL, 1.0}, 1, &out), STATUS_UNREACHABLE);
+  assert_int_equal(retune_solve(network, 1e3, tone, 0, &out), STATUS_NO_SUCH_MODE);
+  assert_int_equal(retune_solve(network, 1e3, tone, 4, &out), STATUS_NO_SUCH_MODE);
+  assert_int_equal(retune_solve(network, 1e3, (Tone){499.0, 1.0}, 1, &out), STATUS_UNSTABLE);
+  network_add_mass(network, 1.0, NULL);
+  assert_int_equal(retune_solve(network, 1e3, tone, 1, &out), STATUS_BAD_ARGUMENT);
+  assert_int_equal(network_check(network, NULL), STATUS_OK);
+  assert_int_equal(retune_solve(network, 1e3, tone, 1, &out), STATUS_FREE);
+  network_free(network);
+  Network* const undamped = networks_string(3, 1.0, 2.0, 0.0);
+  assert_int_equal(retune_solve(undamped, 1e3, tone, 1, &out), STATUS_UNREACHABLE);
+  assert_int_equal(retune_solve(undamped, 1e3, (Tone){100.0, HUGE_VAL}, 1, &out), STATUS_OK);
+  network_free(undamped);
+}
+
+/* What is overdamped as given can still be tuned: only factors count. */
+static void overdamped_networks_are_no_obstacle(void** state) {
+  (void)state;
+  Network* const light = networks_string(5, 1.0, 10.0, 0.01);
+  Network* const heavy = networks_string(5, 1.0, 10.0, 1e4);
+  Retuning a = {0};
+  Retuning b = {0};
+  assert_int_equal(retune_solve(light, 6000.0, (Tone){440.0, 1.0}, 1, &a), STATUS_OK);
+  assert_int_equal(retune_solve(heavy, 6000.0, (Tone){440.0, 1.0}, 1, &b), STATUS_OK);
+  assert_within("p, relative", relative(b.stiffness_factor, a.stiffness_factor), 8.0 * DBL_EPSILON);
+  assert_within("q Z, relative", relative(1e6 * b.damping_factor, a.damping_factor),
+                8.0 * DBL_EPSILON);
+  network_free(light);
+  network_free(heavy);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(worked_example_of_the_paper_is_met),
+      cmocka_unit_test(strings_agree_with_their_closed_form),
+      cmocka_unit_test(undamped_networks_reach_any_mode),
+      cmocka_unit_test(unequal_dampers_are_met_too),
+      cmocka_unit_test(one_damper_can_do_only_so_much),
+      cmocka_unit_test(what_cannot_be_tuned_is_refused),
+      cmocka_unit_test(overdamped_networks_are_no_obstacle),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
