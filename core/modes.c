@@ -110,8 +110,8 @@ static int compare_pairs(const void* left, const void* right) {
 }
 
 /* The poles that one-mass maps of the pairs s give, as w. */
-static void predict(uint32_t n, double step_s, const double complex* s, double complex* w) {
-  for (uint32_t k = 0; k < n; ++k) {
+static void predict(size_t n, double step_s, const double complex* s, double complex* w) {
+  for (size_t k = 0; k < n; ++k) {
     const double c = -creal(s[2 * k] + s[2 * k + 1]);
     const double stiffness = creal(s[2 * k] * s[2 * k + 1]);
     roots(c + step_s * stiffness, stiffness, &w[2 * k]);
@@ -155,7 +155,7 @@ static Status solve_general(const Frame* frame, Modes* modes) {
   double complex* const s = malloc(2 * n_values * sizeof(double complex));
   double complex* const w = s + n_values;
   Status status = s ? find_pairs(frame, step_s, s, w) : STATUS_NO_MEMORY;
-  for (uint32_t k = 0; k < modes->n_modes && !status; ++k) {
+  for (size_t k = 0; k < modes->n_modes && !status; ++k) {
     fill_mode(&modes->mode[k], step_s, &s[2 * k], &w[2 * k]);
   }
   free(s);

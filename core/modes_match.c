@@ -36,7 +36,7 @@ Status match_pairs(uint32_t n, double complex* values) {
   double complex* const real = sorted + 2 * (size_t)n_pairs;
   const size_t n_real = n_values - 2 * (size_t)n_pairs;
   qsort(real, n_real, sizeof(double complex), compare_sizes);
-  for (uint32_t k = 0; k < n; ++k) {
+  for (size_t k = 0; k < n; ++k) {
     const size_t r = k - n_pairs;
     values[2 * k] = k < n_pairs ? sorted[k] : real[r];
     values[2 * k + 1] = k < n_pairs ? conj(sorted[k]) : real[n_real - 1 - r];
@@ -57,14 +57,14 @@ typedef struct {
 
 /* Give the nearest of what is left to each in turn of those that accept it. */
 static void give(Matching* matching, bool to_complex, bool is_pair) {
-  for (uint32_t k = 0; k < matching->n && matching->n_left; ++k) {
+  for (size_t k = 0; k < matching->n && matching->n_left; ++k) {
     const bool is_complex = cimag(matching->expected[2 * k]) != 0.0;
     if (matching->has_given[k] || is_complex != to_complex) {
       continue;
     }
     matching->has_given[k] = true;
-    for (int side = 0; side < (is_pair ? 1 : 2); ++side) {
-      const double complex wanted = matching->expected[2 * k + (uint32_t)side];
+    for (size_t side = 0; side < (is_pair ? 1 : 2); ++side) {
+      const double complex wanted = matching->expected[2 * k + side];
       uint32_t best = 0;
       for (uint32_t i = 1; i < matching->n_left; ++i) {
         if (cabs(matching->left[i] - wanted) < cabs(matching->left[best] - wanted)) {
@@ -73,7 +73,7 @@ static void give(Matching* matching, bool to_complex, bool is_pair) {
       }
       const double complex found = matching->left[best];
       matching->left[best] = matching->left[--matching->n_left];
-      matching->given[2 * k + (uint32_t)side] = found;
+      matching->given[2 * k + side] = found;
       if (is_pair) {
         matching->given[2 * k + 1] = conj(found);
       }

@@ -103,12 +103,14 @@ double pole_edge_vibrating(double mu_h) {
   const double wanted = 4.0 * mu_h * mu_h;
   double low = 0.0;
   double high = 2.0;
-  for (double u = 1.0; u > low && u < high; u = 0.5 * (low + high)) {
+  double u = 1.0;
+  while (u > low && u < high) {
     if (u * u * u * (4.0 - u) < wanted) {
       low = u;
     } else {
       high = u;
     }
+    u = 0.5 * (low + high);
   }
   return 0.5 * high * (high - 2.0);
 }

@@ -243,8 +243,8 @@ void networks_eigenvalues(size_t order, double* matrix, double complex* values) 
   double* const space = networks_zeros(10 * order);
   double unused = 0.0;
   int info = 0;
-  dgeev_("N", "N", &n, matrix, &n, space, space + n, &unused, &one, &unused, &one, space + 2 * n,
-         &n_work, &info);
+  dgeev_("N", "N", &n, matrix, &n, space, space + n, &unused, &one, &unused, &one,
+         space + 2 * order, &n_work, &info);
   assert_int_equal(info, 0);
   for (size_t k = 0; k < order; ++k) {
     values[k] = complex_of(space[k], space[order + k]);
