@@ -163,6 +163,69 @@ static void unequal_dampers_are_met_too(void** state) {
   assert_true(n_first > 9 * n_of[OK] / 10);
 }
 
+/* The pole to which mode k comes when the dampers grow from none to what they are, step by step,
+ * each time the nearest. */
+static double complex followed_pole(Network* network, double rate_hz, uint32_t k, int n_steps) {
+  const size_t order = 2 * (size_t)network->n_masses;
+  double* const matrix = networks_zeros(order * order);
+  double complex* const values = calloc(order, sizeof(double complex));
+  assert_non_null(values);
+  Network* const part = network_copy(network);
+  network_scale(part, 1.0, 0.0);
+  Modes* modes = NULL;
+  assert_int_equal(modes_solve(part, rate_hz, 0, &modes), STATUS_OK);
+  double complex z = modes->mode[k - 1].pole[0];
+  modes_free(modes);
+  for (int n = 1; n <= n_steps; ++n) {
+    for (uint32_t d = 0; d < network->dampers.n; ++d) {
+      part->dampers.link[d].value = n * network->dampers.link[d].value / n_steps;
+    }
+    networks_step_matrix(part, 1.0 / rate_hz, matrix);
+    networks_eigenvalues(order, matrix, values);
+    double complex nearest = HUGE_VAL;
+    for (size_t i = 0; i < order; ++i) {
+      nearest = cabs(values[i] - z) < cabs(nearest - z) ? values[i] : nearest;
+    }
+    z = nearest;
+  }
+  network_free(part);
+  free(matrix);
+  free(values);
+  return z;
+}
+
+static void mode_that_is_tuned_is_the_one_that_was_chosen(void** state) {
+  (void)state;
+  Random random = random_start();
+  int n_met = 0;
+  int n_same = 0;
+  const int n_trials = networks_is_long() ? 1500 : 100;
+  for (int trial = 0; trial < n_trials; ++trial) {
+    Network* const network = networks_random(&random, &MODEST);
+    const Tone tone = {random_log_between(&random, 200.0, 2000.0),
+                       random_log_between(&random, 1e-3, 1e-2)};
+    const uint32_t k = 1 + random_below(&random, network->n_masses);
+    Retuning retuning = {0};
+    if (!retune_solve(network, 48000.0, tone, k, &retuning)) {
+      network_scale(network, retuning.stiffness_factor, retuning.damping_factor);
+      /* Where two poles pass close by each other, the nearest is the right one in small steps. */
+      bool is_same = false;
+      for (int n_steps = 200; n_steps <= 20000 && !is_same; n_steps *= 10) {
+        const double complex z = followed_pole(network, 48000.0, k, n_steps);
+        is_same = cabs(z - wanted_pole(48000.0, tone)) < 1e-6;
+      }
+      n_same += is_same ? 1 : 0;
+      ++n_met;
+    }
+    network_free(network);
+  }
+  print_message("  %d met, of them %d by following the pole at one stiffness\n", n_met, n_same);
+  assert_true(n_met > n_trials / 5);
+  /* The two ways, at changing stiffness and at one, may pass a meeting of two poles on two sides.
+   */
+  assert_true(n_met - n_same <= n_met / 200);
+}
+
 /* A damper on one mass of a string damps less again as it comes to hold the mass still, so there
  * is a shortest τ.  The rate is so high that the analog eigenvalues tell which. */
 static void one_damper_can_do_only_so_much(void** state) {
@@ -246,6 +309,7 @@ int main(void) {
       cmocka_unit_test(strings_agree_with_their_closed_form),
       cmocka_unit_test(undamped_networks_reach_any_mode),
       cmocka_unit_test(unequal_dampers_are_met_too),
+      cmocka_unit_test(mode_that_is_tuned_is_the_one_that_was_chosen),
       cmocka_unit_test(one_damper_can_do_only_so_much),
       cmocka_unit_test(what_cannot_be_tuned_is_refused),
       cmocka_unit_test(overdamped_networks_are_no_obstacle),
