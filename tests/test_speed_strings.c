@@ -21,6 +21,25 @@ static double now_s(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+/* The core that the promises are made for. */
+static const double NOMINAL_HZ = 2.45e9;
+
+/* The clock of now: additions that wait for each other take a cycle each. */
+static double clock_hz(void) {
+  enum { N = 100000 };
+  double best = HUGE_VAL;
+  for (int i = 0; i < 5; ++i) {
+    unsigned long sum = 0;
+    const double start = now_s();
+    for (int k = 0; k < N; ++k) {
+      sum += 1;
+      __asm__ volatile("" : "+r"(sum));
+    }
+    best = fmin(best, now_s() - start);
+  }
+  return N / best;
+}
+
 static Host* open_strings(void) {
   char error[256];
   Host* const host = host_new("urn:hooke:strings", RATE_HZ, BLOCK, error, sizeof(error));
@@ -30,18 +49,20 @@ static Host* open_strings(void) {
   return host;
 }
 
-/* The plugin's run() alone, without the host around it. */
+/* The plugin's run() alone, without the host around it, as a share of the nominal core. */
 static double best_share(Host* host, int n_tries, int n_blocks) {
   LilvInstance* const instance = host_instance(host);
   double best = HUGE_VAL;
   for (int i = 0; i < n_tries; ++i) {
+    const double before_hz = clock_hz();
     const double start = now_s();
     for (int k = 0; k < n_blocks; ++k) {
       lilv_instance_run(instance, BLOCK);
     }
-    best = fmin(best, now_s() - start);
+    const double time_s = now_s() - start;
+    best = fmin(best, time_s * fmin(before_hz, clock_hz()));
   }
-  return best * RATE_HZ / ((double)n_blocks * BLOCK);
+  return best / NOMINAL_HZ * RATE_HZ / ((double)n_blocks * BLOCK);
 }
 
 /* A sanitizer's checks are not what the instrument costs. */
@@ -66,7 +87,7 @@ static void all_88_keys_cost_less_than_15_percent(void** state) {
   assert_true(host_run(host, BLOCK));
   const double share = best_share(host, 40, 20);
   const double n_masses = (double)host_get(host, "mass_count");
-  print_message("88 keys, %g masses: %.2f %% of a core, %.3f ns a mass-step\n", n_masses,
+  print_message("88 keys, %g masses: %.2f %% of a 2.45 GHz core, %.3f ns a mass-step\n", n_masses,
                 100.0 * share, 1e9 * share / (RATE_HZ * n_masses));
   assert_true((double)host_get(host, "sounding") == 88.0);
   assert_true(n_masses > 6200.0);
@@ -80,7 +101,7 @@ static void silence_costs_less_than_a_twentieth_of_a_percent(void** state) {
   Host* const host = open_strings();
   assert_true(host_run(host, BLOCK));
   const double share = best_share(host, 20, 200);
-  print_message("silence: %.4f %% of a core\n", 100.0 * share);
+  print_message("silence: %.4f %% of that core\n", 100.0 * share);
   assert_true(share < 0.0005);
   host_free(host);
 }
