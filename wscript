@@ -31,7 +31,7 @@ default_prefix = '/usr/local'
 Configure.autoconfig = 'clobber'
 
 # The rooms of core/ which know LAPACK. They serve the tools and the tests and stay out of the plugin.
-LAPACK_ROOMS = ['modes', 'modes_band', 'modes_frame', 'modes_general', 'modes_match', 'modes_symmetric', 'retune']
+LAPACK_ROOMS = ['modes', 'modes_band', 'modes_few', 'modes_frame', 'modes_general', 'modes_match', 'modes_symmetric', 'retune']
 
 WARNINGS = '''
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wcast-qual -Wvla

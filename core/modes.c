@@ -2,6 +2,7 @@
 
 #include "core/complex_of.h"
 #include "core/modes_band.h"
+#include "core/modes_few.h"
 #include "core/modes_frame.h"
 #include "core/modes_general.h"
 #include "core/modes_match.h"
@@ -12,6 +13,9 @@
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
+
+/* Poles looked for beyond those that are wanted. */
+enum { MORE_FEW = 2 };
 
 /* Room for the rounding of the paper's radius. */
 static const double PAPER_MARGIN = 1e-12;
@@ -149,12 +153,44 @@ static Status find_pairs(const Frame* frame, double step_s, double complex* s, d
   return status;
 }
 
+/* Pairs of the lowest s, rising, and beside each the nearest of the lowest w, some more than those
+ * that are wanted, since the scheme may order them otherwise. */
+static Status find_few_pairs(
+    const Frame* frame, double step_s, uint32_t n, double complex* s, double complex* w) {
+  const uint32_t n_w = n + MORE_FEW;
+  double complex* const left = malloc(((size_t)n + n_w) * sizeof(double complex));
+  double complex* const upper = left + n_w;
+  Status status = left ? few_solve(frame, 0.0, n, upper) : STATUS_NO_MEMORY;
+  status = status ? status : few_solve(frame, step_s, n_w, left);
+  for (size_t k = 0; k < n && !status; ++k) {
+    s[2 * k] = upper[k];
+    s[2 * k + 1] = conj(upper[k]);
+    predict(1, step_s, &s[2 * k], &w[2 * k]);
+    size_t best = 0;
+    for (size_t i = 1; i < n_w - k; ++i) {
+      best = cabs(left[i] - w[2 * k]) < cabs(left[best] - w[2 * k]) ? i : best;
+    }
+    w[2 * k] = left[best];
+    w[2 * k + 1] = conj(left[best]);
+    left[best] = left[n_w - 1 - k];
+  }
+  free(left);
+  return status;
+}
+
 static Status solve_general(const Frame* frame, Modes* modes) {
   const double step_s = 1.0 / modes->rate_hz;
   const size_t n_values = 2 * (size_t)frame->n;
   double complex* const s = malloc(2 * n_values * sizeof(double complex));
   double complex* const w = s + n_values;
-  Status status = s ? find_pairs(frame, step_s, s, w) : STATUS_NO_MEMORY;
+  Status status = s ? STATUS_NO_SUCH_MODE : STATUS_NO_MEMORY;
+  if (s && few_is_worth_it(frame, modes->n_modes + MORE_FEW)) {
+    status = find_few_pairs(frame, step_s, modes->n_modes, s, w);
+  }
+  /* Real values are paired among all. */
+  if (status == STATUS_NO_SUCH_MODE || status == STATUS_NO_CONVERGENCE) {
+    status = find_pairs(frame, step_s, s, w);
+  }
   for (size_t k = 0; k < modes->n_modes && !status; ++k) {
     fill_mode(&modes->mode[k], step_s, &s[2 * k], &w[2 * k]);
   }
@@ -242,7 +278,7 @@ Status modes_solve(const Network* network, double rate_hz, uint32_t n_wanted, Mo
     found->largest_step_s = step_s;
     status = solve_frame(&frame, found, modes);
   } else {
-    status = STATUS_NO_MEMORY;
+    status = status ? status : STATUS_NO_MEMORY;
   }
   frame_clear(&frame);
   return status;

@@ -70,11 +70,13 @@ typedef struct {
 /**
    Find the modes of a checked network.
 
-   Proportional damping, or none, is solved by a symmetric solver, and any other by dgeev.
+   Proportional damping, or none, is solved by a symmetric solver, and any other by dgeev, of all
+   masses or, where few modes are wanted, of a subspace.
 
    @param rate_hz     Steps per second [Hz], > 0 and finite
-   @param n_wanted    How many, the lowest; 0: all.  Where damping is proportional and few are
-                      wanted, the time hardly grows with what is not
+   @param n_wanted    How many, the lowest; 0: all.  Where few are wanted the time grows with those
+                      and the number of masses, unless unequal dampers leave one so low overdamped;
+                      for all it grows with the cube of the masses
    @param[out] modes  To be given to modes_free(); untouched on failure
    @return STATUS_OK; STATUS_BAD_ARGUMENT (the rate, or the network is not checked); STATUS_FREE
    (see network_find_free()); STATUS_ILL_SCALED where rounding could have moved a mode by a

@@ -218,6 +218,18 @@ double frame_damping(const Frame* frame, const double* y) {
   return sum;
 }
 
+void frame_drag(const Frame* frame, const double* y, double* drag) {
+  memset(drag, 0, frame->n * sizeof(double));
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const FrameLink link = frame->link[l];
+    const double pull = link.z * stretch(frame, link, y);
+    drag[link.a] += pull / frame->root[link.a];
+    if (link.b != FRAME_GROUND) {
+      drag[link.b] -= pull / frame->root[link.b];
+    }
+  }
+}
+
 void frame_fill_stiffness(const Frame* frame, double* matrix) {
   memset(matrix, 0, (size_t)frame->n * frame->n * sizeof(double));
   for (uint32_t l = 0; l < frame->n_links; ++l) {

@@ -170,24 +170,12 @@ static double complex nearest_root(double complex c, double complex k, double co
   return cabs(larger - w) < cabs(smaller - w) ? larger : smaller;
 }
 
-/* A value anew from its shape; as it was if the shape has no say, as where two values meet. */
-static double complex polish(const Frame* frame,
-                             double step_s,
-                             const double complex* y,
-                             double complex w) {
-  const FrameForms forms = frame_forms(frame, y);
-  const double complex c = (forms.damping + step_s * forms.stiffness) / forms.inertia;
-  const double complex k = forms.stiffness / forms.inertia;
-  const double complex better = nearest_root(c, k, w);
-  const bool is_of_its_kind = (cimag(better) > 0.0) == (cimag(w) > 0.0);
-  return is_of_its_kind && cabs(better - w) <= MOST_MOVE * cabs(w) ? better : w;
-}
-
 static void
 collect(const Problem* problem, const Frame* frame, double step_s, double complex* values) {
   for (size_t k = 0; k < (size_t)problem->n; ++k) {
     take_shape(problem, frame->n, k);
-    values[k] = polish(frame, step_s, problem->y, complex_of(problem->re[k], problem->im[k]));
+    values[k] =
+        general_polish(frame, step_s, problem->y, complex_of(problem->re[k], problem->im[k]));
     if (problem->im[k] > 0.0) {
       values[k + 1] = conj(values[k]);
       ++k;
@@ -232,4 +220,16 @@ general_solve(const Frame* frame, double step_s, GeneralCheck check, double comp
   }
   problem_clear(&problem);
   return status;
+}
+
+double complex general_polish(const Frame* frame,
+                              double step_s,
+                              const double complex* y,
+                              double complex w) {
+  const FrameForms forms = frame_forms(frame, y);
+  const double complex c = (forms.damping + step_s * forms.stiffness) / forms.inertia;
+  const double complex k = forms.stiffness / forms.inertia;
+  const double complex better = nearest_root(c, k, w);
+  const bool is_of_its_kind = (cimag(better) > 0.0) == (cimag(w) > 0.0);
+  return is_of_its_kind && cabs(better - w) <= MOST_MOVE * cabs(w) ? better : w;
 }

@@ -50,4 +50,10 @@ GeneralCheck general_check(uint32_t n, const double* omega, const double* dampin
 */
 Status general_solve(const Frame* frame, double step_s, GeneralCheck check, double complex* values);
 
+/** A value w anew from its shape y, of n; as it was if the shape has no say, as where two meet. */
+double complex general_polish(const Frame* frame,
+                              double step_s,
+                              const double complex* y,
+                              double complex w);
+
 #endif
