@@ -84,11 +84,11 @@ static void slow_clear(Slow* slow) {
 }
 
 /* Any numbers that no shape is likely to be orthogonal to. */
-static void scatter(Slow* slow) {
-  uint32_t state = 1;
-  for (size_t i = 0; i < 2 * (size_t)slow->frame->n * slow->p; ++i) {
+static void scatter(size_t n, double* values, uint32_t seed) {
+  uint32_t state = seed;
+  for (size_t i = 0; i < n; ++i) {
     state = 1664525U * state + 1013904223U;
-    slow->basis.y[i] = (double)(state >> 8) * 0x1p-23 - 1.0;
+    values[i] = (double)(state >> 8) * 0x1p-23 - 1.0;
   }
 }
 
@@ -233,7 +233,8 @@ static Status look(Slow* slow, uint32_t n_wanted, uint32_t* n_found) {
 
 static Status iterate(Slow* slow, const Band* band, uint32_t n_wanted, double* space) {
   double last = HUGE_VAL;
-  scatter(slow);
+  scatter((size_t)slow->frame->n * slow->p, slow->basis.y, 1);
+  scatter((size_t)slow->frame->n * slow->p, slow->basis.v, 2);
   for (size_t k = 0; k < slow->p; ++k) {
     frame_stretch_edges(slow->frame, slow->basis.y + slow->frame->n * k,
                         slow->basis.stretch + slow->n_edges * k);
