@@ -100,11 +100,9 @@ static void slow_down(Slow* slow, const Band* band, double* space) {
     const double* const g = slow->basis.v + n * k;
     double* const y = slow->image.y + n * k;
     double* const v = slow->image.v + n * k;
-    frame_drag(slow->frame, f, slow->drag);
-    for (size_t i = 0; i < n; ++i) {
-      slow->drag[i] += g[i];
-      v[i] = f[i];
-    }
+    memcpy(v, f, n * sizeof(double));
+    memcpy(slow->drag, g, n * sizeof(double));
+    frame_add_drag(slow->frame, f, slow->drag);
     band_solve(band, 1, slow->drag, space);
     for (size_t i = 0; i < n; ++i) {
       y[i] = -slow->drag[i] - slow->step_s * f[i];

@@ -218,14 +218,13 @@ double frame_damping(const Frame* frame, const double* y) {
   return sum;
 }
 
-void frame_drag(const Frame* frame, const double* y, double* drag) {
-  memset(drag, 0, frame->n * sizeof(double));
+void frame_add_drag(const Frame* frame, const double* y, double* sum) {
   for (uint32_t l = 0; l < frame->n_links; ++l) {
     const FrameLink link = frame->link[l];
     const double pull = link.z * stretch(frame, link, y);
-    drag[link.a] += pull / frame->root[link.a];
+    sum[link.a] += pull / frame->root[link.a];
     if (link.b != FRAME_GROUND) {
-      drag[link.b] -= pull / frame->root[link.b];
+      sum[link.b] -= pull / frame->root[link.b];
     }
   }
 }

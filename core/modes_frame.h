@@ -53,8 +53,8 @@ FrameForms frame_forms(const Frame* frame, const double complex* y);
 /** yᵀ Ẑ y of a real y, in the same way. */
 double frame_damping(const Frame* frame, const double* y);
 
-/** Ẑ y of a real y, n. */
-void frame_drag(const Frame* frame, const double* y, double* drag);
+/** Add Ẑ y of a real y to `sum`, n. */
+void frame_add_drag(const Frame* frame, const double* y, double* sum);
 
 /** Fill K̂ or Ẑ; n × n, column-major, ld = n. */
 void frame_fill_stiffness(const Frame* frame, double* matrix);

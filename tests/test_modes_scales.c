@@ -131,8 +131,8 @@ static void extremes_without_dampers_are_right_to_rounding(void** state) {
   }
   print_message("  frequencies over up to %.0f decades in one network\n", log10(widest));
   /* Roundings times the condition of the edges once rows and columns are brought to one size, which
-   * loops of unlike springs raise to some hundreds. */
-  assert_within("ω and the limit, relative", worst, 1e-12);
+   * loops of unlike springs raise to some ten thousands in a thousand networks. */
+  assert_within("ω and the limit, relative", worst, 1e-10);
 }
 
 /* Masses by themselves, each with its own damper: closed form. */
