@@ -57,7 +57,7 @@ static Status slow_init(Slow* slow, const Frame* frame, double step_s, uint32_t 
   const size_t n = frame->n;
   const size_t p = 2 * (size_t)n_pairs_for(n_wanted);
   const size_t m = frame_count_edges(frame);
-  double* const space = malloc((2 * (2 * n + m) * p + n + 2 * p * p + 66 * p) * sizeof(double));
+  double* const space = calloc(2 * (2 * n + m) * p + n + 2 * p * p + 66 * p, sizeof(double));
   double complex* const numbers = malloc((n + 2 * p) * sizeof(double complex));
   *slow = (Slow){.frame = frame, .step_s = step_s, .p = (uint32_t)p, .n_edges = (uint32_t)m};
   if (!space || !numbers) {
