@@ -49,10 +49,12 @@ static Host* open_strings(void) {
   return host;
 }
 
-/* The plugin's run() alone, without the host around it, as a share of the nominal core. */
+/* The plugin's run() alone, without the host around it, as a share of the nominal core.  Of the
+ * clock before and after, the faster counts: the other would flatter. */
 static double best_share(Host* host, int n_tries, int n_blocks) {
   LilvInstance* const instance = host_instance(host);
   double best = HUGE_VAL;
+  double least_s = HUGE_VAL;
   for (int i = 0; i < n_tries; ++i) {
     const double before_hz = clock_hz();
     const double start = now_s();
@@ -60,9 +62,13 @@ static double best_share(Host* host, int n_tries, int n_blocks) {
       lilv_instance_run(instance, BLOCK);
     }
     const double time_s = now_s() - start;
-    best = fmin(best, time_s * fmin(before_hz, clock_hz()));
+    least_s = fmin(least_s, time_s);
+    best = fmin(best, time_s * fmax(before_hz, clock_hz()));
   }
-  return best / NOMINAL_HZ * RATE_HZ / ((double)n_blocks * BLOCK);
+  const double audio_s = (double)n_blocks * BLOCK / RATE_HZ;
+  print_message("by the time alone, at the clock as it is: %.4f %% of a core\n",
+                100.0 * least_s / audio_s);
+  return best / NOMINAL_HZ / audio_s;
 }
 
 /* A sanitizer's checks are not what the instrument costs. */
