@@ -4,58 +4,11 @@
 
 set -u
 
-: "${HOOKE_BIN:?is the program to test}"
-: "${HOOKE_SOURCE:?is the directory of the sources}"
-
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-trap 'exit 1' HUP INT TERM
-cd "$dir" || exit 1
-
-n_failed=0
-
-fail() {
-    echo "FAILED: $*"
-    n_failed=$((n_failed + 1))
-}
-
-# same FOUND EXPECTED WHAT
-same() {
-    test "$1" = "$2" || fail "$3: found '$1', expected '$2'"
-}
-
-# modes STATUS ARGUMENT...: the answer in `log`, and nothing on stderr.
-modes() {
-    expected=$1
-    shift
-    "$HOOKE_BIN" modes "$@" >log 2>errors
-    status=$?
-    test "$status" -eq "$expected" || fail "modes $*: status $status, expected $expected"
-    test ! -s errors || fail "modes $*: $(cat errors)"
-}
-
-# refuse STATUS TEXT ARGUMENT...: one line with TEXT on stderr, that status, and no answer.
-refuse() {
-    expected=$1
-    text=$2
-    shift 2
-    "$HOOKE_BIN" modes "$@" >log 2>errors
-    status=$?
-    test "$status" -eq "$expected" || fail "modes $*: status $status, expected $expected"
-    test "$(wc -l <errors)" -eq 1 || fail "modes $*: not one line: $(cat errors)"
-    grep -qF -e "$text" errors || fail "modes $*: '$(cat errors)' does not say '$text'"
-    test ! -s log || fail "modes $*: wrote '$(cat log)' to stdout"
-}
+. "$HOOKE_SOURCE/tests/claims.sh"
 
 # column NAME: of the CSV in `log`, a line for each mode.
 column() {
     awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) c = i; next } { print $c }' log
-}
-
-# near VALUE EXPECTED RELATIVE WHAT
-near() {
-    awk -v a="$1" -v b="$2" -v r="$3" 'BEGIN { d = a - b; d = d < 0 ? -d : d; e = b < 0 ? -b : b; exit !(a != "" && d <= r * e) }' ||
-        fail "$4: found '$1', expected $2"
 }
 
 # json EXPRESSION: of the object in `log`, where there is a Python to read it.
@@ -106,7 +59,7 @@ damper a g 2500
 END
 
 the_table_is_that_of_the_paper() {
-    modes 0 string.scene
+    answer 0 modes string.scene
     for mode in 440.00000 872.76842 1287.45585 1662.75731 1951.81777; do
         grep -qF " $mode " log || fail "no mode of $mode Hz in '$(cat log)'"
     done
@@ -120,19 +73,19 @@ the_table_is_that_of_the_paper() {
 
 # The highest mode is one mass: a = h^2 k lambda, g = h Z lambda, lambda = 4 sin^2(5 pi/12); a + 2 g = 4.
 the_largest_step_is_that_of_the_highest_mode() {
-    modes 0 --csv string.scene
+    answer 0 modes --csv string.scene
     step=$(awk 'BEGIN { l = 2 + sqrt(3); k = 28018382.290630583 * l; z = 7.46285773641449 * l
                         printf "%.15g", (-z + sqrt(z * z + 4 * k)) / k }')
     near "$(column largest_step_s | head -n 1)" "$step" 1e-12 'largest step'
     limit=$(awk -v h="$step" 'BEGIN { printf "%.15g", 1 / h }')
-    modes 0 --rate "$(awk -v r="$limit" 'BEGIN { printf "%.15g", r * (1 + 1e-9) }')" string.scene
-    modes 3 --rate "$(awk -v r="$limit" 'BEGIN { printf "%.15g", r * (1 - 1e-9) }')" string.scene
+    answer 0 modes --rate "$(awk -v r="$limit" 'BEGIN { printf "%.15g", r * (1 + 1e-9) }')" string.scene
+    answer 3 modes --rate "$(awk -v r="$limit" 'BEGIN { printf "%.15g", r * (1 - 1e-9) }')" string.scene
     grep -q '^unstable at ' log || fail "no verdict in '$(cat log)'"
     grep -q 'grows.*unstable$' log || fail "no mode grows in '$(cat log)'"
 }
 
 overdamped_and_undamped_modes_are_told() {
-    modes 0 --csv two.scene
+    answer 0 modes --csv two.scene
     same "$(column region | tr '\n' ' ')" 'creeps vibrates ' regions
     near "$(column eigenvalue_re | head -n 1)" -500 1e-12 'slower eigenvalue'
     near "$(column eigenvalue2_re | head -n 1)" -2000 1e-12 'faster eigenvalue'
@@ -140,49 +93,49 @@ overdamped_and_undamped_modes_are_told() {
     same "$(column stable | tr '\n' ' ')" '1 1 ' stability
     near "$(column frequency_hz | tail -n 1)" 318.33291657 1e-9 'frequency of 2000 rad/s at 48 kHz'
     case $(column tau_s | tail -n 1) in -*) fail "what is stable grows: '$(cat log)'" ;; esac
-    modes 0 ring.scene
+    answer 0 modes ring.scene
     grep -q 'for ever' log || fail "the undamped mode dies in '$(cat log)'"
-    modes 0 --csv ring.scene
+    answer 0 modes --csv ring.scene
     same "$(column tau_s)" inf 'time of what does not die'
 }
 
 the_paper_is_named_where_it_differs() {
-    modes 3 paper.scene
+    answer 3 modes paper.scene
     grep -q "^the paper's rule, each eigenvalue by itself, says stable: the largest radius would be 0.9755951[0-9]*, and is 3.719972[0-9]*$" log ||
         fail "'$(cat log)'"
-    modes 3 --csv paper.scene
+    answer 3 modes --csv paper.scene
     same "$(column all_stable | head -n 1) $(column paper_all_stable | head -n 1)" '0 1' 'two verdicts'
 }
 
 only_the_lowest_are_listed() {
-    modes 0 --csv string.scene
+    answer 0 modes --csv string.scene
     head -n 3 log | cut -d, -f1-8 >lowest
-    modes 0 --csv --lowest 2 string.scene
+    answer 0 modes --csv --lowest 2 string.scene
     same "$(wc -l <log | tr -d ' ')" 3 'lines for two modes'
-    modes 0 --csv --lowest=99 string.scene
+    answer 0 modes --csv --lowest=99 string.scene
     same "$(wc -l <log | tr -d ' ')" 6 'lines for all modes'
-    modes 3 --lowest 1 --rate 4000 string.scene
+    answer 3 modes --lowest 1 --rate 4000 string.scene
     grep -q '^unstable' log || fail "the verdict is of the lowest only: '$(cat log)'"
 }
 
 csv_has_as_many_cells_everywhere() {
     for scene in string.scene two.scene; do
-        modes 0 --csv $scene
+        answer 0 modes --csv $scene
         same "$(awk -F, '{ print NF }' log | sort -u)" 15 "cells in a line for $scene"
     done
-    modes 3 --csv paper.scene
+    answer 3 modes --csv paper.scene
     same "$(awk -F, '{ print NF }' log | sort -u)" 15 'cells in a line for paper.scene'
 }
 
 json_parses() {
     has_python || return 0
-    modes 0 --json two.scene
+    answer 0 modes --json two.scene
     python3 -m json.tool <log >parsed 2>errors || fail "no JSON: $(cat errors)"
     same "$(json 'modes["stable"], len(modes["modes"]), modes["modes"][0]["warp_cents"]')" 'True 2 None' 'two.scene'
     same "$(json '[round(s[0]) for s in modes["modes"][0]["eigenvalues"]]')" '[-500, -2000]' eigenvalues
-    modes 0 --json ring.scene
+    answer 0 modes --json ring.scene
     same "$(json 'modes["modes"][0]["tau_s"]')" None 'time of what does not die'
-    modes 3 --json paper.scene
+    answer 3 modes --json paper.scene
     same "$(json 'modes["stable"], modes["paper_stable"], modes["complete"], modes["proportional"]')" \
         'False True True False' 'paper.scene'
     near "$(json 'modes["largest_step_s"] * modes["lowest_rate_hz"]')" 1 1e-12 'step and rate'
@@ -190,18 +143,18 @@ json_parses() {
 
 what_is_wrong_is_refused() {
     echo 'mess a 1' >bad.scene
-    refuse 1 "bad.scene:1: found 'mess', expected rate" bad.scene
+    refuse 1 "bad.scene:1: found 'mess', expected rate" modes bad.scene
     printf 'rate 1\nmass a 1\n' >free.scene
-    refuse 1 "free.scene:2: found 'a' hanging on no ground" free.scene
+    refuse 1 "free.scene:2: found 'a' hanging on no ground" modes free.scene
     printf 'rate 1\nmass a 1e-300\nground g\nspring a g 1e300\n' >huge.scene
-    refuse 1 'huge.scene: could not find the modes: its numbers differ too widely' huge.scene
-    refuse 1 'none.scene: No such file or directory' none.scene
-    refuse 2 'found no scene, expected IN.scene'
-    refuse 2 "found 'b.scene' too, expected one scene" a.scene b.scene
-    refuse 2 "--lowest: found '0', expected a whole number from 1" --lowest 0 string.scene
-    refuse 2 "--rate: found 'x', expected a number" --rate x string.scene
-    refuse 2 'found --csv and --json, expected one of them' --csv --json string.scene
-    refuse 2 "no option '--tsv'" --tsv string.scene
+    refuse 1 'huge.scene: could not find the modes: its numbers differ too widely' modes huge.scene
+    refuse 1 'none.scene: No such file or directory' modes none.scene
+    refuse 2 'found no scene, expected IN.scene' modes
+    refuse 2 "found 'b.scene' too, expected one scene" modes a.scene b.scene
+    refuse 2 "--lowest: found '0', expected a whole number from 1" modes --lowest 0 string.scene
+    refuse 2 "--rate: found 'x', expected a number" modes --rate x string.scene
+    refuse 2 'found --csv and --json, expected one of them' modes --csv --json string.scene
+    refuse 2 "no option '--tsv'" modes --tsv string.scene
 }
 
 an_answer_that_is_not_written_is_a_failure() {
@@ -213,7 +166,7 @@ an_answer_that_is_not_written_is_a_failure() {
 
 the_example_is_stable() {
     for scene in "$HOOKE_SOURCE"/doc/*.scene; do
-        modes 0 "$scene"
+        answer 0 modes "$scene"
     done
 }
 

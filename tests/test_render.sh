@@ -4,59 +4,10 @@
 
 set -u
 
-: "${HOOKE_BIN:?is the program to test}"
-: "${HOOKE_SOURCE:?is the directory of the sources}"
-
-dir=$(mktemp -d) || exit 1
-child=
-trap 'test -z "$child" || kill "$child"; rm -rf "$dir"' EXIT
-trap 'exit 1' HUP INT TERM
-cd "$dir" || exit 1
-mkdir home out
-HOME=$dir/home
-export HOME
-
-n_failed=0
-
-fail() {
-    echo "FAILED: $*"
-    n_failed=$((n_failed + 1))
-}
-
-# same FOUND EXPECTED WHAT
-same() {
-    test "$1" = "$2" || fail "$3: found '$1', expected '$2'"
-}
-
-# The WAV file's bytes from offset $2 on, $3 of them, as one number, the lowest first.
-field() {
-    od -A n -t "u$3" -j "$2" -N "$3" "$1" | tr -d ' '
-}
+. "$HOOKE_SOURCE/tests/claims.sh"
 
 size() {
     wc -c <"$1" | tr -d ' '
-}
-
-render() {
-    "$HOOKE_BIN" render "$@" >log 2>errors || {
-        fail "render $*: status $?: $(cat errors)"
-        return 1
-    }
-}
-
-# refuse STATUS TEXT ARGUMENT...: one line with TEXT on stderr, that status, and nothing new in out/.
-refuse() {
-    expected=$1
-    text=$2
-    shift 2
-    before=$(ls -A out)
-    "$HOOKE_BIN" "$@" >log 2>errors
-    status=$?
-    test "$status" -eq "$expected" || fail "hooke $*: status $status, expected $expected"
-    test "$(wc -l <errors)" -eq 1 || fail "hooke $*: not one line: $(cat errors)"
-    grep -qF -e "$text" errors || fail "hooke $*: '$(cat errors)' does not say '$text'"
-    test ! -s log || fail "hooke $*: wrote '$(cat log)' to stdout"
-    test "$(ls -A out)" = "$before" || fail "hooke $*: left $(ls -A out)"
 }
 
 # A song without a note, a note of half a second, and a song of three notes at three tempi.

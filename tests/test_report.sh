@@ -4,44 +4,15 @@
 
 set -u
 
-: "${HOOKE_BIN:?is the program to test}"
-
 command -v gnuplot >/dev/null 2>&1 || {
     echo 'there is no gnuplot here'
     exit 77
 }
 
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-trap 'exit 1' HUP INT TERM
-cd "$dir" || exit 1
-mkdir home empty old out
-HOME=$dir/home
-export HOME
+. "$HOOKE_SOURCE/tests/claims.sh"
 
+mkdir empty old
 figures='03 04 05 08 09 10 11 12 13 14 15 16 17 18 19 21'
-search=$PATH # where the program looks for gnuplot
-n_failed=0
-
-fail() {
-    echo "FAILED: $*"
-    n_failed=$((n_failed + 1))
-}
-
-# refuse STATUS TEXT ARGUMENT...: one line with TEXT on stderr, that status, and nothing new in out/.
-refuse() {
-    expected=$1
-    text=$2
-    shift 2
-    before=$(ls -AR out)
-    PATH=$search "$HOOKE_BIN" "$@" >log 2>errors
-    status=$?
-    test "$status" -eq "$expected" || fail "hooke $*: status $status, expected $expected"
-    test "$(wc -l <errors)" -eq 1 || fail "hooke $*: not one line: $(cat errors)"
-    grep -qF -e "$text" errors || fail "hooke $*: '$(cat errors)' does not say '$text'"
-    test ! -s log || fail "hooke $*: wrote '$(cat log)' to stdout"
-    test "$(ls -AR out)" = "$before" || fail "hooke $*: left $(ls -AR out)"
-}
 
 well_formed() {
     if command -v xmllint >/dev/null 2>&1; then

@@ -4,32 +4,7 @@
 
 set -u
 
-: "${HOOKE_BIN:?is the program to test}"
-: "${HOOKE_SOURCE:?is the directory of the sources}"
-
-dir=$(mktemp -d) || exit 1
-child=
-trap 'test -z "$child" || kill "$child"; rm -rf "$dir"' EXIT
-trap 'exit 1' HUP INT TERM
-cd "$dir" || exit 1
-mkdir out
-
-n_failed=0
-
-fail() {
-    echo "FAILED: $*"
-    n_failed=$((n_failed + 1))
-}
-
-# same FOUND EXPECTED WHAT
-same() {
-    test "$1" = "$2" || fail "$3: found '$1', expected '$2'"
-}
-
-# The WAV file's bytes from offset $2 on, $3 of them, as one number, the lowest first.
-field() {
-    od -A n -t "u$3" -j "$2" -N "$3" "$1" | tr -d ' '
-}
+. "$HOOKE_SOURCE/tests/claims.sh"
 
 # Where the samples of a WAV file begin.
 data_at() {
@@ -39,28 +14,6 @@ data_at() {
 # The left samples of a WAV file of floats, one a line.
 left() {
     od -A n -v -t f4 -w8 -j "$(data_at "$1")" "$1" | awk '{ print $1 }'
-}
-
-render() {
-    "$HOOKE_BIN" render "$@" >log 2>errors || {
-        fail "render $*: status $?: $(cat errors)"
-        return 1
-    }
-}
-
-# refuse STATUS TEXT ARGUMENT...: one line with TEXT on stderr, that status, and nothing new in out/.
-refuse() {
-    expected=$1
-    text=$2
-    shift 2
-    before=$(ls -A out)
-    "$HOOKE_BIN" render "$@" >log 2>errors
-    status=$?
-    test "$status" -eq "$expected" || fail "render $*: status $status, expected $expected"
-    test "$(wc -l <errors)" -eq 1 || fail "render $*: not one line: $(cat errors)"
-    grep -qF -e "$text" errors || fail "render $*: '$(cat errors)' does not say '$text'"
-    test ! -s log || fail "render $*: wrote '$(cat log)' to stdout"
-    test "$(ls -A out)" = "$before" || fail "render $*: left $(ls -A out)"
 }
 
 # The paper's string, plucked.
@@ -122,17 +75,17 @@ two_runs_are_the_same_file() {
 }
 
 the_unstable_is_refused_with_what_would_do() {
-    refuse 3 'unstable.scene: found it unstable at 500 Hz, where mode 2 of 2 grows 13.9-fold a step, expected a rate of 1000 Hz or more' \
+    refuse 3 'unstable.scene: found it unstable at 500 Hz, where mode 2 of 2 grows 13.9-fold a step, expected a rate of 1000 Hz or more' render \
         unstable.scene out/x.wav
     sed 's/^rate.*/rate 1000/' unstable.scene >stable.scene
     render stable.scene out/a.wav
     sed 's/^rate.*/rate 999/' unstable.scene >unstable999.scene
-    refuse 3 'expected a rate of 1000 Hz or more' unstable999.scene out/x.wav
+    refuse 3 'expected a rate of 1000 Hz or more' render unstable999.scene out/x.wav
     render --rate 4000 unstable.scene out/a.wav
 }
 
 anyway_renders_as_long_as_numbers_are_finite() {
-    refuse 1 'out/x.wav: found a number that is not finite at 0.0' --anyway unstable.scene out/x.wav
+    refuse 1 'out/x.wav: found a number that is not finite at 0.0' render --anyway unstable.scene out/x.wav
     sed 's/^end.*/end 0.05/' unstable.scene >short.scene
     render --anyway short.scene out/a.wav || return
     same "$(left out/a.wav | wc -l | tr -d ' ')" 25 'frames'
@@ -142,27 +95,27 @@ anyway_renders_as_long_as_numbers_are_finite() {
 broken_scenes_render_nothing() {
     echo old >out/kept.wav
     echo 'mess' >bad.scene
-    refuse 1 "bad.scene:1: found 'mess', expected rate" bad.scene out/kept.wav
+    refuse 1 "bad.scene:1: found 'mess', expected rate" render bad.scene out/kept.wav
     grep -v pickup string.scene >bad.scene
-    refuse 1 "bad.scene:4: found the end of the file, expected 'pickup MASS GAIN'" bad.scene out/kept.wav
+    refuse 1 "bad.scene:4: found the end of the file, expected 'pickup MASS GAIN'" render bad.scene out/kept.wav
     same "$(cat out/kept.wav)" old 'the old file'
     rm out/kept.wav
-    refuse 1 'none.scene: No such file or directory' none.scene out/x.wav
+    refuse 1 'none.scene: No such file or directory' render none.scene out/x.wav
     sed 's/^rate.*/rate 6000.5/' string.scene >bad.scene
-    refuse 1 'found a rate of 6000.5 Hz, expected a whole number' bad.scene out/x.wav
+    refuse 1 'found a rate of 6000.5 Hz, expected a whole number' render bad.scene out/x.wav
     printf 'rate 1000\nmass a 1e-300\nground g\nspring a g 1e300\npickup a 1\nend 1\n' >bad.scene
-    refuse 1 'bad.scene: could not judge whether it is stable: its numbers differ too widely' bad.scene out/x.wav
-    refuse 1 'nowhere/x.wav: No such file or directory' string.scene nowhere/x.wav
+    refuse 1 'bad.scene: could not judge whether it is stable: its numbers differ too widely' render bad.scene out/x.wav
+    refuse 1 'nowhere/x.wav: No such file or directory' render string.scene nowhere/x.wav
 }
 
 options_of_the_other_kind_are_refused() {
-    refuse 2 'found --set for a scene' --set level=0 string.scene out/x.wav
-    refuse 2 'found --tail for a scene' --tail 1 string.scene out/x.wav
-    refuse 2 'found --preset for a scene' --preset x string.scene out/x.wav
-    refuse 2 'found --list-presets for a scene' --list-presets string.scene
-    refuse 2 'found --anyway for a MIDI file' --anyway song.mid out/x.wav
-    refuse 2 'found no output' string.scene
-    refuse 2 'expected .wav, .flac or .ogg' string.scene out/x.mp3
+    refuse 2 'found --set for a scene' render --set level=0 string.scene out/x.wav
+    refuse 2 'found --tail for a scene' render --tail 1 string.scene out/x.wav
+    refuse 2 'found --preset for a scene' render --preset x string.scene out/x.wav
+    refuse 2 'found --list-presets for a scene' render --list-presets string.scene
+    refuse 2 'found --anyway for a MIDI file' render --anyway song.mid out/x.wav
+    refuse 2 'found no output' render string.scene
+    refuse 2 'expected .wav, .flac or .ogg' render string.scene out/x.mp3
 }
 
 an_interrupted_render_leaves_nothing() {

@@ -4,53 +4,7 @@
 
 set -u
 
-: "${HOOKE_BIN:?is the program to test}"
-
-dir=$(mktemp -d) || exit 1
-trap 'rm -rf "$dir"' EXIT
-trap 'exit 1' HUP INT TERM
-cd "$dir" || exit 1
-
-n_failed=0
-
-fail() {
-    echo "FAILED: $*"
-    n_failed=$((n_failed + 1))
-}
-
-# same FOUND EXPECTED WHAT
-same() {
-    test "$1" = "$2" || fail "$3: found '$1', expected '$2'"
-}
-
-# near VALUE EXPECTED RELATIVE WHAT
-near() {
-    awk -v a="$1" -v b="$2" -v r="$3" 'BEGIN { d = a - b; d = d < 0 ? -d : d; e = b < 0 ? -b : b; exit !(a != "" && d <= r * e) }' ||
-        fail "$4: found '$1', expected $2"
-}
-
-# tune STATUS ARGUMENT...: the answer in `log`, and nothing on stderr.
-tune() {
-    expected=$1
-    shift
-    "$HOOKE_BIN" tune "$@" >log 2>errors
-    status=$?
-    test "$status" -eq "$expected" || fail "tune $*: status $status, expected $expected"
-    test ! -s errors || fail "tune $*: $(cat errors)"
-}
-
-# refuse STATUS TEXT ARGUMENT...: one line with TEXT on stderr, that status, and no answer.
-refuse() {
-    expected=$1
-    text=$2
-    shift 2
-    "$HOOKE_BIN" tune "$@" >log 2>errors
-    status=$?
-    test "$status" -eq "$expected" || fail "tune $*: status $status, expected $expected"
-    test "$(wc -l <errors)" -eq 1 || fail "tune $*: not one line: $(cat errors)"
-    grep -qF -e "$text" errors || fail "tune $*: '$(cat errors)' does not say '$text'"
-    test ! -s log || fail "tune $*: wrote '$(cat log)' to stdout"
-}
+. "$HOOKE_SOURCE/tests/claims.sh"
 
 # quantity NAME: what the answer says of it.
 quantity() {
@@ -60,7 +14,7 @@ quantity() {
 paper='--freq 440 --tau 1 --masses 5 --rate 6000'
 
 table_1_is_printed_to_every_digit() {
-    tune 0 $paper
+    answer 0 tune $paper
     same "$(awk '$4 == "vibrates" { print $1, $2, $3 }' log)" '1 440.00000 1.0000000
 2 872.76842 0.2678272
 3 1287.45585 0.1338302
@@ -70,32 +24,32 @@ table_1_is_printed_to_every_digit() {
 
 # 6000 sqrt(a1/lambda1) and 6000 (1 - exp(-2/6000))/lambda1, computed with 40 digits.
 its_string_is_printed_too() {
-    tune 0 $paper
+    answer 0 tune $paper
     near "$(quantity omega0)" 5293.239300336853 2e-15 omega0
     near "$(quantity gamma)" 7.462857736414484 2e-14 gamma
     near "$(quantity k)" 28018382.290630583 4e-15 k
     near "$(quantity Z)" 7.462857736414484 1e-15 Z
     same "$(quantity m)" 1 m
-    tune 0 $paper --mass 0.002
+    answer 0 tune $paper --mass 0.002
     near "$(quantity k)" 56036.764581261166 4e-15 'k for 2 g'
     near "$(quantity Z)" 0.014925715472828968 1e-15 'Z for 2 g'
 }
 
 # Table of the largest N at 48 kHz and 1 s: A4 with s = 0.01 and with s = 1.
 too_many_masses_are_unstable() {
-    tune 0 --freq 440 --tau 1 --rate 48000 --masses 53 --loss 0.01
+    answer 0 tune --freq 440 --tau 1 --rate 48000 --masses 53 --loss 0.01
     grep -q '^stable with 53 masses; up to 53 masses are stable$' log || fail "'$(tail -n 1 log)'"
-    tune 3 --freq 440 --tau 1 --rate 48000 --masses 54 --loss 0.01
+    answer 3 tune --freq 440 --tau 1 --rate 48000 --masses 54 --loss 0.01
     grep -q '^unstable with 54 masses; up to 53 masses are stable$' log || fail "'$(tail -n 1 log)'"
     grep -q grows log || fail "no mode grows with 54 masses"
-    tune 0 --freq 440 --tau 1 --rate 48000 --masses 52
+    answer 0 tune --freq 440 --tau 1 --rate 48000 --masses 52
     grep -q 'up to 52 masses are stable$' log || fail "'$(tail -n 1 log)'"
-    tune 0 --freq 440 --tau 1 --rate 48000 --masses 50 --loss 0.01 --stiffness 1e-4
+    answer 0 tune --freq 440 --tau 1 --rate 48000 --masses 50 --loss 0.01 --stiffness 1e-4
     grep -q 'up to 50 masses are stable$' log || fail "'$(tail -n 1 log)'"
 }
 
 loss_and_stiffness_are_heard() {
-    tune 0 --freq 440 --tau 1 --masses 5 --rate 48000 --loss 0 --stiffness 0.01
+    answer 0 tune --freq 440 --tau 1 --masses 5 --rate 48000 --loss 0 --stiffness 0.01
     same "$(quantity Z)" 0 'dampers between the masses'
     near "$(quantity Z0)" "$(awk 'BEGIN { print 48000 * (1 - exp(-2 / 48000)) }')" 1e-5 'dampers to the ground'
     test -n "$(quantity k2)" || fail "no stiffness against bending in '$(cat log)'"
@@ -103,7 +57,7 @@ loss_and_stiffness_are_heard() {
 }
 
 what_never_dies_rings_for_ever() {
-    tune 0 --freq 440 --tau inf --masses 3 --rate 6000
+    answer 0 tune --freq 440 --tau inf --masses 3 --rate 6000
     same "$(grep -c 'for ever' log)" 3 'modes that ring for ever'
     same "$(quantity Z)" 0 'dampers without decay'
 }
@@ -114,30 +68,30 @@ a_scene_is_tuned() {
 rate 6000
 string s 5 mass 2 stiffness 1e6 damping 0.5
 END
-    tune 0 --freq 440 --tau 1 string.scene
+    answer 0 tune --freq 440 --tau 1 string.scene
     near "$(quantity stiffness_factor)" 56.036764581261166 1e-12 'factor of springs'
     near "$(quantity damping_factor)" 29.851430945657936 1e-12 'factor of dampers'
-    tune 0 --freq 872.76842 --tau 0.2678272 --mode 2 string.scene
+    answer 0 tune --freq 872.76842 --tau 0.2678272 --mode 2 string.scene
     near "$(quantity stiffness_factor)" 56.036764581261166 1e-7 'factor of springs by mode 2'
-    tune 0 --freq 440 --tau 1 --rate 48000 string.scene
+    answer 0 tune --freq 440 --tau 1 --rate 48000 string.scene
     near "$(quantity stiffness_factor)" 57.05 1e-3 'factor of springs at 48 kHz'
 }
 
 what_is_wrong_is_refused() {
-    refuse 2 'found no --freq' --tau 1 --masses 5 --rate 6000
-    refuse 2 'found no --tau' --freq 440 --masses 5 --rate 6000
-    refuse 2 'found no --masses' --freq 440 --tau 1 --rate 6000
-    refuse 2 'found no --rate' --freq 440 --tau 1 --masses 5
-    refuse 2 'expected a pitch below half the rate, 3000 Hz' --freq 3000 --tau 1 --masses 5 --rate 6000
-    refuse 2 "--freq: found '-1', expected a number" $paper --freq -1
-    refuse 2 "--tau: found '0', expected a number" $paper --tau 0
-    refuse 2 "--masses: found '2.5', expected a whole number" $paper --masses 2.5
-    refuse 2 "--loss: found '1.1', expected a number from 0 to 1" $paper --loss 1.1
-    refuse 2 'found --mode for a string' $paper --mode 2
-    refuse 2 'found --masses for a scene' $paper string.scene
-    refuse 1 'nowhere.scene: No such file' --freq 440 --tau 1 nowhere.scene
-    refuse 1 'could not tune mode 6: there is no such mode' --freq 440 --tau 1 --mode 6 string.scene
-    refuse 3 'could not tune mode 1: no stable system' --freq 2000 --tau 1 string.scene
+    refuse 2 'found no --freq' tune --tau 1 --masses 5 --rate 6000
+    refuse 2 'found no --tau' tune --freq 440 --masses 5 --rate 6000
+    refuse 2 'found no --masses' tune --freq 440 --tau 1 --rate 6000
+    refuse 2 'found no --rate' tune --freq 440 --tau 1 --masses 5
+    refuse 2 'expected a pitch below half the rate, 3000 Hz' tune --freq 3000 --tau 1 --masses 5 --rate 6000
+    refuse 2 "--freq: found '-1', expected a number" tune $paper --freq -1
+    refuse 2 "--tau: found '0', expected a number" tune $paper --tau 0
+    refuse 2 "--masses: found '2.5', expected a whole number" tune $paper --masses 2.5
+    refuse 2 "--loss: found '1.1', expected a number from 0 to 1" tune $paper --loss 1.1
+    refuse 2 'found --mode for a string' tune $paper --mode 2
+    refuse 2 'found --masses for a scene' tune $paper string.scene
+    refuse 1 'nowhere.scene: No such file' tune --freq 440 --tau 1 nowhere.scene
+    refuse 1 'could not tune mode 6: there is no such mode' tune --freq 440 --tau 1 --mode 6 string.scene
+    refuse 3 'could not tune mode 1: no stable system' tune --freq 2000 --tau 1 string.scene
 }
 
 help_says_what_is_returned() {
