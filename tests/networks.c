@@ -1,6 +1,6 @@
 #include "tests/networks.h"
 
-#include "core/complex_of.h"
+#include "tests/oracle.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -9,22 +9,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-/* LAPACK and BLAS. */
-void dgeev_(const char* jobvl,
-            const char* jobvr,
-            const int* n,
-            double* a,
-            const int* lda,
-            double* wr,
-            double* wi,
-            double* vl,
-            const int* ldvl,
-            double* vr,
-            const int* ldvr,
-            double* work,
-            const int* lwork,
-            int* info);
 
 static void check(Network* network) {
   assert_int_equal(network_check(network, NULL), STATUS_OK);
@@ -236,29 +220,13 @@ void networks_exponential(size_t order, const double* a, double t, double* resul
   free(scaled);
 }
 
-void networks_eigenvalues(size_t order, double* matrix, double complex* values) {
-  const int n = (int)order;
-  const int one = 1;
-  const int n_work = 8 * n;
-  double* const space = networks_zeros(10 * order);
-  double unused = 0.0;
-  int info = 0;
-  dgeev_("N", "N", &n, matrix, &n, space, space + n, &unused, &one, &unused, &one,
-         space + 2 * order, &n_work, &info);
-  assert_int_equal(info, 0);
-  for (size_t k = 0; k < order; ++k) {
-    values[k] = complex_of(space[k], space[order + k]);
-  }
-  free(space);
-}
-
 double networks_spectral_radius(Network* network, double step_s) {
   const size_t order = 2 * (size_t)network->n_masses;
   double* const matrix = networks_zeros(order * order);
   double complex* const values = calloc(order, sizeof(double complex));
   assert_non_null(values);
   networks_step_matrix(network, step_s, matrix);
-  networks_eigenvalues(order, matrix, values);
+  oracle_eigenvalues(order, matrix, values);
   double radius = 0.0;
   for (size_t k = 0; k < order; ++k) {
     radius = fmax(radius, cabs(values[k]));

@@ -52,9 +52,6 @@ void networks_apply(size_t order, const double* a, const double* x, double* y);
 /** e^{tA} by a Taylor series of the scaled matrix, squared again. */
 void networks_exponential(size_t order, const double* a, double t, double* result);
 
-/** The eigenvalues by dgeev; the matrix is destroyed. */
-void networks_eigenvalues(size_t order, double* matrix, double complex* values);
-
 /** The largest modulus of an eigenvalue of the step matrix. */
 double networks_spectral_radius(Network* network, double step_s);
 

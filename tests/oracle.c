@@ -35,21 +35,21 @@ static double* zeros(size_t n) {
   return values;
 }
 
-static void eigenvalues(double* matrix, uint32_t order, double complex* values) {
+void oracle_eigenvalues(size_t order, double* matrix, double complex* values) {
   const int n = (int)order;
   const int one = 1;
   const int n_work = 8 * n;
-  double* const space = zeros((size_t)order * 10);
-  double* const re = space;
-  double* const im = re + n;
+  double* const re = zeros(10 * order);
+  double* const im = re + order;
   double unused = 0.0;
   int info = 0;
-  dgeev_("N", "N", &n, matrix, &n, re, im, &unused, &one, &unused, &one, im + n, &n_work, &info);
+  dgeev_("N", "N", &n, matrix, &n, re, im, &unused, &one, &unused, &one, im + order, &n_work,
+         &info);
   assert_int_equal(info, 0);
-  for (uint32_t k = 0; k < order; ++k) {
+  for (size_t k = 0; k < order; ++k) {
     values[k] = complex_of(re[k], im[k]);
   }
-  free(space);
+  free(re);
 }
 
 /* y = A x */
@@ -108,7 +108,7 @@ void oracle_poles(StringCoefs coefs, uint32_t n, double complex* poles) {
       step[i + n + (j + n) * order] = one - z;
     }
   }
-  eigenvalues(step, (uint32_t)order, poles);
+  oracle_eigenvalues(order, step, poles);
   free(step);
   free(damping);
   free(stiffness);
@@ -127,7 +127,7 @@ double oracle_spectral_radius(StringCoefs coefs, uint32_t n) {
 
 void oracle_mass_poles(double a, double g, double complex poles[2]) {
   double step[4] = {1.0 - a, -a, 1.0 - g, 1.0 - g};
-  eigenvalues(step, 2, poles);
+  oracle_eigenvalues(2, step, poles);
 }
 
 void oracle_step(StringCoefs coefs, uint32_t n, double* x, double* u) {

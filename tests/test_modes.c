@@ -115,10 +115,10 @@ static void poles_are_the_eigenvalues_of_the_step(void** state) {
       largest = fmax(largest, cabs(s[2 * (size_t)k + 1]));
     }
     networks_state_matrix(network, matrix);
-    networks_eigenvalues(order, matrix, values);
+    oracle_eigenvalues(order, matrix, values);
     worst_s = fmax(worst_s, distance(order, s, values) / largest);
     networks_step_matrix(network, h, matrix);
-    networks_eigenvalues(order, matrix, values);
+    oracle_eigenvalues(order, matrix, values);
     worst_z = fmax(worst_z, distance(order, z, values) / fmax(1.0, modes->radius));
     free(matrix);
     free(values);

@@ -37,7 +37,7 @@ static double limit_by_roots(const Network* network) {
       a[i + j * order] = -a[i + j * order];
     }
   }
-  networks_eigenvalues(order, a, values);
+  oracle_eigenvalues(order, a, values);
   double root = 0.0;
   for (size_t k = 0; k < order; ++k) {
     root = fmax(root, creal(values[k]));

@@ -146,7 +146,7 @@ static double lowest_energy(Network* network, double step_s) {
       form[i + j * order] = 0.25 * (sign[0] - sign[1]);
     }
   }
-  networks_eigenvalues(order, form, values);
+  oracle_eigenvalues(order, form, values);
   double lowest = HUGE_VAL;
   for (size_t i = 0; i < order; ++i) {
     lowest = fmin(lowest, creal(values[i]));
