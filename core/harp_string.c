@@ -35,6 +35,7 @@ target_of(const HarpString* string, const Patch* patch, double f0_hz, Damper dam
       .tone = {.f0_hz = f0_hz, .tau_s = tau_s},
       .loss = patch->loss * (expm1(-2.0 / (open_s * steps)) / expm1(-2.0 / (tau_s * steps))),
       .inharmonicity = patch->inharmonicity,
+      .partials = patch->partials,
   };
 }
 
@@ -68,6 +69,7 @@ double harp_string_pitch_hz(const Patch* patch, uint32_t key, double bend_semito
   return patch->tuning_hz * exp2(((double)key - 69.0 + bend_semitones) / 12.0);
 }
 
+/* No patch has a string of more: loss, stiffness and true partials all add to its load. */
 uint32_t harp_string_capacity(double rate_hz, uint32_t key, double lowest_hz) {
   const TuningTarget lightest = {
       .rate_hz = rate_hz,

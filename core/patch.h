@@ -2,6 +2,8 @@
 #ifndef HOOKE_CORE_PATCH_H
 #define HOOKE_CORE_PATCH_H
 
+#include "core/tuning.h"
+
 #include <stdint.h>
 
 /** Every value must be in its range and a number: who fills a patch in clamps it. */
@@ -11,6 +13,7 @@ typedef struct {
   double tracking;      /**< Damping of a key is damping · 2^(tracking (note − 69)/12) */
   double loss; /**< Share of the fundamental's damping that sits between the masses, 0 to 1 */
   double inharmonicity; /**< B, ≥ 0; 0: perfectly flexible */
+  Partials partials;    /**< How true strings are to the ideal one */
   double pickup;        /**< Where strings are read, fraction of the length, 0 to 1 */
   double spread; /**< Between the left and the right pickup, fraction of the length, 0 to 0.5; past
                     an end, folded back */

@@ -22,61 +22,95 @@ typedef struct {
   double lambda_last;
   double loss;    /* s */
   double bending; /* b = k2/k1 */
+  double fade; /* d = k3/k1 over what b is above LEAST_GROWING_BENDING, with which it gives way */
 } Design;
 
 static bool is_between(double value, double low, double high) {
   return value >= low && value <= high;
 }
 
+/* What of the series is wanted; past c = 1, where 1 − c² is negative, the chain as it is. */
+static void set_partials(Design* design, const TuningTarget* target, uint32_t n_masses) {
+  const double length = (n_masses + 1.0) / PI;
+  const double beta = target->inharmonicity * length * length;
+  const double courant = 2.0 * target->tone.f0_hz * (n_masses + 1.0) / target->rate_hz;
+  const double missing = fmax(0.0, 1.0 - courant * courant / (1.0 + target->inharmonicity));
+  const double third = missing * ((3.0 + missing) / 360.0 + beta / 6.0);
+  design->bending = target->partials == PARTIALS_LUMPED ? beta : beta + missing / 12.0;
+  design->fade =
+      target->partials == PARTIALS_TRUEST ? third / (design->bending - LEAST_GROWING_BENDING) : 0.0;
+}
+
 static Status design_init(Design* design, const TuningTarget* target, uint32_t n_masses) {
   Pole first = {0};
   if (n_masses == 0 || pole_solve(target->rate_hz, target->tone, &first) ||
       !is_between(target->loss, 0.0, 1.0) || !(target->inharmonicity >= 0.0) ||
-      !isfinite(target->inharmonicity)) {
+      !isfinite(target->inharmonicity) || (unsigned)target->partials > PARTIALS_TRUEST) {
     return STATUS_BAD_ARGUMENT;
   }
-  const double length = (n_masses + 1.0) / PI;
   *design = (Design){
       .first = first,
       .lambda1 = tuning_lambda(n_masses, 1),
       .lambda_last = tuning_lambda(n_masses, n_masses),
       .loss = target->loss,
-      .bending = target->inharmonicity * length * length,
   };
+  set_partials(design, target, n_masses);
   return STATUS_OK;
 }
 
 static StringCoefs design_coefs(const Design* design) {
   const double lambda1 = design->lambda1;
-  const double k1 = design->first.a / (lambda1 * (1.0 + design->bending * lambda1));
+  const double third = fmax(0.0, design->fade * (design->bending - LEAST_GROWING_BENDING));
+  const double k1 =
+      design->first.a / (lambda1 * (1.0 + (design->bending + third * lambda1) * lambda1));
   return (StringCoefs){
       .k1 = k1,
       .k2 = design->bending * k1,
       .z0 = design->first.g * (1.0 - design->loss),
       .z1 = design->first.g * design->loss / lambda1,
+      .k3 = third * k1,
   };
 }
 
 static Pole mode_at(StringCoefs coefs, double lambda) {
   return (Pole){
-      .a = (coefs.k1 + coefs.k2 * lambda) * lambda,
+      .a = (coefs.k1 + (coefs.k2 + coefs.k3 * lambda) * lambda) * lambda,
       .g = coefs.z0 + coefs.z1 * lambda,
   };
 }
 
-static double headroom(StringCoefs coefs, double lambda_last) {
+/*
+  The largest of a + 2g, a cubic in λ, from 0 to the last mode. It sets out rising, by s = k1 + 2
+  z1, so it is largest at its end or where it first stops rising, s + 2 k2 λ + 3 k3 λ² = 0. Where
+  neither k2 nor k3 is negative it never stops, and the last mode is the heaviest.
+*/
+static double largest_load(StringCoefs coefs, double lambda_last) {
   const Pole last = mode_at(coefs, lambda_last);
+  const double load = last.a + 2.0 * last.g;
   const double slope = coefs.k1 + 2.0 * coefs.z1;
-  double load = last.a + 2.0 * last.g;
-  /* With negative bending the load is a parabola in λ that may peak below the last mode. */
-  if (coefs.k2 < 0.0) {
-    const double peak = -0.5 * slope / coefs.k2;
-    if (peak < lambda_last) {
-      load = 2.0 * coefs.z0 + 0.5 * slope * peak;
-    }
+  const double discriminant = coefs.k2 * coefs.k2 - 3.0 * coefs.k3 * slope;
+  if (!(coefs.k2 < 0.0 || coefs.k3 < 0.0) || !(discriminant >= 0.0)) {
+    return load;
   }
-  /* a_k/λ_k is linear in λ and positive in the first mode: if the last pulls back, all do. */
-  return last.a > 0.0 ? 1.0 - 0.25 * load : -HUGE_VAL;
+  const double peak = slope / (sqrt(discriminant) - coefs.k2);
+  if (!(peak < lambda_last)) {
+    return load;
+  }
+  /* The cubic there, less the half of λ times what is nought there. */
+  return fmax(load, 2.0 * coefs.z0 + 0.5 * peak * (slope - coefs.k3 * peak * peak));
+}
+
+/* Whether a/λ = k1 + k2 λ + k3 λ² is positive from 0 to the last mode. It is at 0; so it is all
+ * along if it is at its end and, should it have one in between, at its bottom. */
+static bool is_pulled_back(StringCoefs coefs, double lambda_last) {
+  const bool has_bottom = coefs.k2 < 0.0 && -coefs.k2 < 2.0 * coefs.k3 * lambda_last;
+  return mode_at(coefs, lambda_last).a > 0.0 &&
+         (!has_bottom || 4.0 * coefs.k1 * coefs.k3 > coefs.k2 * coefs.k2);
+}
+
+static double headroom(StringCoefs coefs, double lambda_last) {
+  return is_pulled_back(coefs, lambda_last) ? 1.0 - 0.25 * largest_load(coefs, lambda_last)
+                                            : -HUGE_VAL;
 }
 
 static bool design_is_safe(const Design* design) {

@@ -74,6 +74,7 @@ void oracle_assert_within(
 void oracle_forces(StringCoefs coefs, uint32_t n, double* stiffness, double* damping) {
   double* const laplacian = zeros((size_t)n * n);
   double* const squared = zeros((size_t)n * n);
+  double* const cubed = zeros((size_t)n * n);
   for (uint32_t i = 0; i < n; ++i) {
     laplacian[i + (size_t)i * n] = 2.0;
     if (i + 1 < n) {
@@ -82,13 +83,15 @@ void oracle_forces(StringCoefs coefs, uint32_t n, double* stiffness, double* dam
   }
   for (uint32_t j = 0; j < n; ++j) {
     multiply(laplacian, n, laplacian + (size_t)j * n, squared + (size_t)j * n);
+    multiply(laplacian, n, squared + (size_t)j * n, cubed + (size_t)j * n);
   }
   for (size_t m = 0; m < (size_t)n * n; ++m) {
-    stiffness[m] = coefs.k1 * laplacian[m] + coefs.k2 * squared[m];
+    stiffness[m] = coefs.k1 * laplacian[m] + coefs.k2 * squared[m] + coefs.k3 * cubed[m];
     damping[m] = coefs.z1 * laplacian[m] + (m % (n + 1) == 0 ? coefs.z0 : 0.0);
   }
   free(laplacian);
   free(squared);
+  free(cubed);
 }
 
 void oracle_poles(StringCoefs coefs, uint32_t n, double complex* poles) {
@@ -130,16 +133,28 @@ void oracle_mass_poles(double a, double g, double complex poles[2]) {
   oracle_eigenvalues(2, step, poles);
 }
 
-void oracle_step(StringCoefs coefs, uint32_t n, double* x, double* u) {
-  double y[MAX_MASSES + 2] = {0};
-  assert(n <= MAX_MASSES);
+/* y = L x, of n masses between two walls */
+static void bend(uint32_t n, const double* x, double* y) {
   for (uint32_t i = 0; i < n; ++i) {
     const double left = i > 0 ? x[i - 1] : 0.0;
     const double right = i + 1 < n ? x[i + 1] : 0.0;
-    y[i + 1] = coefs.k1 * x[i] + coefs.k2 * (2.0 * x[i] - left - right) + coefs.z1 * u[i];
+    y[i] = 2.0 * x[i] - left - right;
   }
+}
+
+void oracle_step(StringCoefs coefs, uint32_t n, double* x, double* u) {
+  double once[MAX_MASSES];
+  double twice[MAX_MASSES];
+  double pulls[MAX_MASSES];
+  assert(n <= MAX_MASSES);
+  bend(n, x, once);
+  bend(n, once, twice);
   for (uint32_t i = 0; i < n; ++i) {
-    u[i] += y[i] - 2.0 * y[i + 1] + y[i + 2] - coefs.z0 * u[i];
+    pulls[i] = coefs.k1 * x[i] + coefs.k2 * once[i] + coefs.k3 * twice[i] + coefs.z1 * u[i];
+  }
+  bend(n, pulls, once);
+  for (uint32_t i = 0; i < n; ++i) {
+    u[i] -= once[i] + coefs.z0 * u[i];
     x[i] += u[i];
   }
 }
@@ -170,7 +185,8 @@ double oracle_headroom(StringCoefs coefs, uint32_t n) {
   double headroom = HUGE_VAL;
   for (uint32_t k = 1; k <= n; ++k) {
     const double lambda = 2.0 - 2.0 * cos(PI * k / (n + 1.0));
-    const double a = coefs.k1 * lambda + coefs.k2 * lambda * lambda;
+    const double a =
+        coefs.k1 * lambda + coefs.k2 * lambda * lambda + coefs.k3 * lambda * lambda * lambda;
     const double g = coefs.z0 + coefs.z1 * lambda;
     headroom = fmin(headroom, a > 0.0 ? 1.0 - 0.25 * (a + 2.0 * g) : -HUGE_VAL);
   }

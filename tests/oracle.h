@@ -24,7 +24,7 @@ void oracle_assert_within(const char* what, double worst, double limit, const ch
 /** All eigenvalues of a matrix, order × order, by dgeev; the matrix is destroyed. */
 void oracle_eigenvalues(size_t order, double* matrix, double complex* values);
 
-/** The stiffness K = k1 L + k2 L² and the damping Z = z0 I + z1 L, both n × n. */
+/** The stiffness K = k1 L + k2 L² + k3 L³ and the damping Z = z0 I + z1 L, both n × n. */
 void oracle_forces(StringCoefs coefs, uint32_t n, double* stiffness, double* damping);
 
 /** All 2n poles of the string: the eigenvalues of its step matrix on (x, u). */

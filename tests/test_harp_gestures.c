@@ -42,6 +42,7 @@ static Patch random_patch(Random* random) {
       .tracking = random_between(random, -1.0, 2.0),
       .loss = random_below(random, 4) ? random_between(random, 0.0, 1.0) : random_below(random, 2),
       .inharmonicity = random_below(random, 3) ? random_log_between(random, 1e-6, 0.1) : 0.0,
+      .partials = (Partials)random_below(random, 3),
       .pickup = random_between(random, 0.0, 1.0),
       .spread = is_mono ? 0.0 : random_between(random, 0.0, 0.5),
       .pluck = random_between(random, 0.0, 1.0),
@@ -144,9 +145,7 @@ static void check_strings(const Harp* harp) {
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
     const HarpString* const string = &harp->strings[key];
     if (string->is_awake) {
-      const StringCoefs now = {string->chain.now.k1, string->chain.now.k2, string->chain.now.z0,
-                               string->chain.now.z1};
-      assert_true(oracle_headroom(now, string->chain.n_masses) >= 0.0);
+      assert_true(oracle_headroom(string->chain.now, string->chain.n_masses) >= 0.0);
       assert_true(string->chain.n_masses <= string->capacity);
       ++n_strings;
     }

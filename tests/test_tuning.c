@@ -101,13 +101,16 @@ static void modes_are_the_eigenvalues_of_the_dense_matrix(void** state) {
                  random_log_between(&random, 1e-3, 100.0)},
         .loss = random_between(&random, 0.0, 1.0),
         .inharmonicity = trial % 3 == 0 ? 0.0 : random_log_between(&random, 1e-6, 1e-1),
+        .partials = (Partials)random_below(&random, 3),
     };
     StringCoefs coefs = solve(&target, n_masses);
     /* Bending down to where the top mode stands still, of which no target asks. */
     if (trial % 3 == 1) {
       coefs.k2 = -coefs.k1 * random_between(&random, 0.0, 0.25);
+      coefs.k3 = coefs.k1 * random_between(&random, 0.0, 0.05);
     }
-    const double size = 1.0 + 4.0 * (coefs.k1 + coefs.z1) + 16.0 * fabs(coefs.k2) + coefs.z0;
+    const double size =
+        1.0 + 4.0 * (coefs.k1 + coefs.z1) + 16.0 * fabs(coefs.k2) + 64.0 * coefs.k3 + coefs.z0;
     worst = fmax(worst, spectrum_error(coefs, n_masses) / (size * n_masses));
   }
   assert_within("poles, over the matrix's size and condition", worst, 8.0 * DBL_EPSILON);
@@ -118,7 +121,7 @@ static void sines_are_the_shapes(void** state) {
   (void)state;
   static double stiffness[MOST_DENSE * MOST_DENSE];
   static double damping[MOST_DENSE * MOST_DENSE];
-  const StringCoefs coefs = {0.3, 0.07, 0.011, 0.2};
+  const StringCoefs coefs = {.k1 = 0.3, .k2 = 0.07, .z0 = 0.011, .z1 = 0.2, .k3 = 0.01};
   double worst = 0.0;
   for (uint32_t n = 1; n <= MOST_DENSE; ++n) {
     oracle_forces(coefs, n, stiffness, damping);
@@ -137,7 +140,7 @@ static void sines_are_the_shapes(void** state) {
       }
     }
   }
-  /* Arguments up to 40π have three roundings, and rows of K weigh up to 2.4. */
+  /* Arguments up to 40π have three roundings, and rows of K weigh up to 3. */
   assert_within("K φ − a φ and Z φ − g φ", worst, 400.0 * DBL_EPSILON);
 }
 
@@ -151,6 +154,7 @@ static void fundamental_has_the_pitch_and_decay_asked_for(void** state) {
         .tone = {random_log_between(&random, 8.0, 3900.0), random_log_between(&random, 0.05, 1e3)},
         .loss = random_between(&random, 0.0, 1.0),
         .inharmonicity = random_between(&random, 0.0, 0.1),
+        .partials = (Partials)random_below(&random, 3),
     };
     const uint32_t n_masses = 1 + random_below(&random, 1024);
     const Tone tone = pole_tone(target.rate_hz, tuning_mode(solve(&target, n_masses), n_masses, 1));
@@ -209,23 +213,32 @@ static void nonsense_is_refused_and_nothing_is_written(void** state) {
   (void)state;
   const double nan = (double)NAN;
   const TuningTarget bad[] = {
-      {0.0, {440.0, 1.0}, 0.5, 0.0},          {nan, {440.0, 1.0}, 0.5, 0.0},
-      {48000.0, {24000.0, 1.0}, 0.5, 0.0},    {48000.0, {0.0, 1.0}, 0.5, 0.0},
-      {48000.0, {nan, 1.0}, 0.5, 0.0},        {48000.0, {440.0, nan}, 0.5, 0.0},
-      {48000.0, {440.0, 0.0}, 0.5, 0.0},      {48000.0, {440.0, 1.0}, nan, 0.0},
-      {48000.0, {440.0, 1.0}, -0.01, 0.0},    {48000.0, {440.0, 1.0}, 1.01, 0.0},
-      {48000.0, {440.0, 1.0}, 0.5, -1e-9},    {48000.0, {440.0, 1.0}, 0.5, nan},
-      {48000.0, {440.0, 1.0}, 0.5, HUGE_VAL},
+      {0.0, {440.0, 1.0}, 0.5, 0.0, PARTIALS_LUMPED},
+      {nan, {440.0, 1.0}, 0.5, 0.0, PARTIALS_LUMPED},
+      {48000.0, {24000.0, 1.0}, 0.5, 0.0, PARTIALS_LUMPED},
+      {48000.0, {0.0, 1.0}, 0.5, 0.0, PARTIALS_LUMPED},
+      {48000.0, {nan, 1.0}, 0.5, 0.0, PARTIALS_LUMPED},
+      {48000.0, {440.0, nan}, 0.5, 0.0, PARTIALS_LUMPED},
+      {48000.0, {440.0, 0.0}, 0.5, 0.0, PARTIALS_LUMPED},
+      {48000.0, {440.0, 1.0}, nan, 0.0, PARTIALS_LUMPED},
+      {48000.0, {440.0, 1.0}, -0.01, 0.0, PARTIALS_LUMPED},
+      {48000.0, {440.0, 1.0}, 1.01, 0.0, PARTIALS_LUMPED},
+      {48000.0, {440.0, 1.0}, 0.5, -1e-9, PARTIALS_LUMPED},
+      {48000.0, {440.0, 1.0}, 0.5, nan, PARTIALS_LUMPED},
+      {48000.0, {440.0, 1.0}, 0.5, HUGE_VAL, PARTIALS_LUMPED},
+      {48000.0, {440.0, 1.0}, 0.5, 0.0, (Partials)3},
+      {48000.0, {440.0, 1.0}, 0.5, 0.0, (Partials)-1},
   };
   const size_t n_bad = sizeof(bad) / sizeof(bad[0]);
-  const TuningTarget good = {48000.0, {440.0, 1.0}, 0.5, 0.0};
+  const TuningTarget good = {48000.0, {440.0, 1.0}, 0.5, 0.0, PARTIALS_LUMPED};
   for (size_t i = 0; i <= n_bad; ++i) {
     const TuningTarget* const target = i < n_bad ? &bad[i] : &good;
     const uint32_t n_masses = i < n_bad ? 10 : 0;
-    StringCoefs coefs = {1.0, 2.0, 3.0, 4.0};
+    StringCoefs coefs = {1.0, 2.0, 3.0, 4.0, 5.0};
     assert_int_equal(tuning_solve(target, n_masses, &coefs), STATUS_BAD_ARGUMENT);
     assert_int_equal(tuning_fit(target, n_masses, &coefs), STATUS_BAD_ARGUMENT);
     assert_true(coefs.k1 == 1.0 && coefs.k2 == 2.0 && coefs.z0 == 3.0 && coefs.z1 == 4.0);
+    assert_true(coefs.k3 == 5.0);
     assert_int_equal(tuning_max_masses(target, n_masses), 0);
   }
 }

@@ -26,6 +26,7 @@ static const double UNDECIDED = 1e-10;
 /* What was solved for, read back from the coefficients. */
 typedef struct {
   double bending; /* k2/k1 */
+  double third;   /* k3/k1 */
   double loss;
 } Given;
 
@@ -43,18 +44,22 @@ static Given given_of(StringCoefs coefs, uint32_t n_masses) {
   const double lambda1 = tuning_lambda(n_masses, 1);
   return (Given){
       .bending = coefs.k2 / coefs.k1,
+      .third = coefs.k3 / coefs.k1,
       .loss = coefs.z1 * lambda1 / (coefs.z0 + coefs.z1 * lambda1),
   };
 }
 
-/* The string of the target with another bending and loss. */
+/* The string of the target with other bending, third and loss. */
 static StringCoefs string_with(const TuningTarget* target, uint32_t n_masses, Given given) {
   TuningTarget flexible = *target;
   flexible.loss = given.loss;
   flexible.inharmonicity = 0.0;
+  flexible.partials = PARTIALS_LUMPED;
   StringCoefs coefs = solve(&flexible, n_masses);
-  coefs.k1 /= 1.0 + given.bending * tuning_lambda(n_masses, 1);
+  const double lambda1 = tuning_lambda(n_masses, 1);
+  coefs.k1 /= 1.0 + given.bending * lambda1 + given.third * lambda1 * lambda1;
   coefs.k2 = given.bending * coefs.k1;
+  coefs.k3 = given.third * coefs.k1;
   return coefs;
 }
 
@@ -65,6 +70,7 @@ is_nothing_safe_between(const TuningTarget* target, uint32_t n_masses, Given giv
     const double share = pow(1.25, -step);
     const Given between = {
         given.bending + share * (wanted.bending - given.bending),
+        given.third + share * (wanted.third - given.third),
         given.loss + share * (wanted.loss - given.loss),
     };
     const StringCoefs coefs = string_with(target, n_masses, between);
@@ -86,6 +92,7 @@ static TuningTarget random_note(Random* random, uint32_t* n_masses) {
       .tone = {random_log_between(random, 27.5, 6000.0), random_log_between(random, 0.003, 30.0)},
       .loss = random_below(random, 3) ? random_between(random, 0.0, 1.0) : 0.0,
       .inharmonicity = random_below(random, 3) ? random_log_between(random, 1e-6, 1e-2) : 0.0,
+      .partials = (Partials)random_below(random, 3),
   };
   *n_masses = tuning_max_masses(&target, MOST_MASSES);
   assert_true(*n_masses > 0);
@@ -155,13 +162,17 @@ static void string_gives_way_as_little_as_it_must(void** state) {
     const Given wanted = given_of(whole, n_masses);
     const Given given = given_of(coefs, n_masses);
     if (given.loss > wanted.loss - UNDECIDED && given.bending > FIRST_STOP - UNDECIDED) {
+      /* In a straight line, third with bending. */
+      const double share = (given.bending - FIRST_STOP) / (wanted.bending - FIRST_STOP);
+      assert_true(fabs(given.third - share * wanted.third) < UNDECIDED);
       assert_true(is_nothing_safe_between(&target, n_masses, given, wanted));
       ++n_given[BENDING];
     } else {
-      const Given stop = {FIRST_STOP, wanted.loss};
+      const Given stop = {FIRST_STOP, 0.0, wanted.loss};
+      assert_true(given.third == 0.0);
       assert_true(is_nothing_safe_between(&target, n_masses, stop, wanted));
       const bool is_again = given.bending < FIRST_STOP - UNDECIDED;
-      const Given lossless = {FIRST_STOP, 0.0};
+      const Given lossless = {FIRST_STOP, 0.0, 0.0};
       assert_true(fabs(is_again ? given.loss : given.bending - FIRST_STOP) < UNDECIDED);
       assert_true(is_nothing_safe_between(&target, n_masses, given, is_again ? lossless : stop));
       ++n_given[is_again ? BENDING_AGAIN : LOSS];
@@ -172,16 +183,71 @@ static void string_gives_way_as_little_as_it_must(void** state) {
   assert_true(n_given[BENDING] > 300 && n_given[LOSS] > 50 && n_given[BENDING_AGAIN] > 300);
 }
 
+static StringCoefs between(StringCoefs from, StringCoefs to, double share) {
+  return (StringCoefs){
+      .k1 = from.k1 + share * (to.k1 - from.k1),
+      .k2 = from.k2 + share * (to.k2 - from.k2),
+      .z0 = from.z0 + share * (to.z0 - from.z0),
+      .z1 = from.z1 + share * (to.z1 - from.z1),
+      .k3 = from.k3 + share * (to.k3 - from.k3),
+  };
+}
+
+/* So is what glides in a straight line from one to the other. */
+static void headroom_between_two_strings_is_no_less_than_theirs(void** state) {
+  (void)state;
+  Random random = random_start();
+  for (int trial = 0; trial < 4000; ++trial) {
+    uint32_t n_masses = 0;
+    StringCoefs ends[2];
+    TuningTarget target = random_note(&random, &n_masses);
+    const double f0_hz = target.tone.f0_hz;
+    for (int end = 0; end < 2; ++end) {
+      target.tone.f0_hz = f0_hz * exp2(random_between(&random, -12.0, 7.0) / 12.0);
+      target.partials = (Partials)random_below(&random, 3);
+      assert_int_equal(tuning_fit(&target, n_masses, &ends[end]), STATUS_OK);
+    }
+    const double least =
+        fmin(tuning_headroom(ends[0], n_masses), tuning_headroom(ends[1], n_masses));
+    for (int step = 1; step < 8; ++step) {
+      const StringCoefs coefs = between(ends[0], ends[1], 0.125 * step);
+      assert_true(tuning_headroom(coefs, n_masses) >= least - 64.0 * DBL_EPSILON);
+    }
+  }
+}
+
+static void true_partials_cost_none_of_the_reach(void** state) {
+  (void)state;
+  int n_out_of_reach = 0;
+  Random random = random_start();
+  for (int trial = 0; trial < 20000; ++trial) {
+    uint32_t n_masses = 0;
+    TuningTarget target = random_note(&random, &n_masses);
+    target.tone.f0_hz = fmin(target.tone.f0_hz * exp2(random_between(&random, 0.0, 1.5)), 23e3);
+    target.partials = PARTIALS_LUMPED;
+    StringCoefs coefs = {0};
+    const Status lumped = tuning_fit(&target, n_masses, &coefs);
+    n_out_of_reach += lumped == STATUS_UNSTABLE;
+    target.partials = PARTIALS_TRUE;
+    assert_int_equal(tuning_fit(&target, n_masses, &coefs), lumped);
+    target.partials = PARTIALS_TRUEST;
+    assert_int_equal(tuning_fit(&target, n_masses, &coefs), lumped);
+  }
+  print_message("  %d of 20000 out of reach\n", n_out_of_reach);
+  assert_true(n_out_of_reach > 2000);
+}
+
 static void octave_is_as_far_as_it_goes(void** state) {
   (void)state;
   for (uint32_t n_masses = 20; n_masses <= 500; n_masses += 20) {
     TuningTarget target = {.rate_hz = 48000.0, .tone = {24000.0 / (n_masses + 1.5), HUGE_VAL}};
     assert_int_equal(tuning_max_masses(&target, MOST_MASSES), n_masses);
     const double f0_hz = target.tone.f0_hz;
-    StringCoefs coefs = {1.0, 2.0, 3.0, 4.0};
+    StringCoefs coefs = {1.0, 2.0, 3.0, 4.0, 5.0};
     target.tone.f0_hz = f0_hz * exp2(13.0 / 12.0);
     assert_int_equal(tuning_fit(&target, n_masses, &coefs), STATUS_UNSTABLE);
     assert_true(coefs.k1 == 1.0 && coefs.k2 == 2.0 && coefs.z0 == 3.0 && coefs.z1 == 4.0);
+    assert_true(coefs.k3 == 5.0);
     target.tone.f0_hz = f0_hz * exp2(11.0 / 12.0);
     assert_int_equal(tuning_fit(&target, n_masses, &coefs), STATUS_OK);
     assert_true(oracle_headroom(coefs, n_masses) >= TUNING_MARGIN - 16.0 * DBL_EPSILON);
@@ -193,6 +259,8 @@ int main(void) {
       cmocka_unit_test(bent_string_keeps_pitch_and_decay_and_is_stable),
       cmocka_unit_test(string_that_is_safe_gives_nothing_way),
       cmocka_unit_test(string_gives_way_as_little_as_it_must),
+      cmocka_unit_test(headroom_between_two_strings_is_no_less_than_theirs),
+      cmocka_unit_test(true_partials_cost_none_of_the_reach),
       cmocka_unit_test(octave_is_as_far_as_it_goes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -82,6 +82,7 @@ static TuningTarget random_target(Random* random) {
       .tone = {random_log_between(random, 20.0, 25000.0), random_log_between(random, 1e-3, 1e2)},
       .loss = random_between(random, 0.0, 1.0),
       .inharmonicity = random_below(random, 2) ? random_log_between(random, 1e-6, 0.1) : 0.0,
+      .partials = (Partials)random_below(random, 3),
   };
 }
 
@@ -126,12 +127,15 @@ static void note_close_below_nyquist_has_one_mass_and_above_none(void** state) {
 static StringCoefs near_limit(Random* random, uint32_t n_masses, bool is_negative, double off) {
   const double b =
       is_negative ? -random_between(random, 0.0, 0.24) : random_between(random, 0.0, 2.0);
+  const double d =
+      random_below(random, 3) ? random_between(random, 0.0, is_negative ? 0.05 : 2.0) : 0.0;
   const double damping = random_below(random, 4) ? random_between(random, 0.0, 1.5) : 0.0;
   const double share = random_between(random, 0.0, 1.0);
-  StringCoefs coefs = {1.0, b, damping * share, damping * (1.0 - share)};
+  StringCoefs coefs = {1.0, b, damping * share, damping * (1.0 - share), d};
   const double load = 1.0 - oracle_headroom(coefs, n_masses);
   const double scale = (1.0 + off) / load;
-  return (StringCoefs){coefs.k1 * scale, coefs.k2 * scale, coefs.z0 * scale, coefs.z1 * scale};
+  return (StringCoefs){coefs.k1 * scale, coefs.k2 * scale, coefs.z0 * scale, coefs.z1 * scale,
+                       coefs.k3 * scale};
 }
 
 static void headroom_is_what_the_dense_matrix_says(void** state) {
@@ -176,11 +180,46 @@ static void headroom_with_negative_bending_is_never_too_high(void** state) {
   assert_true(n_safe > 500);
 }
 
+/* Of a string so long that its modes are all of the interval from 0 to 4, whatever k2 and k3. */
+static void headroom_is_that_of_the_whole_cubic(void** state) {
+  (void)state;
+  enum { TRIALS = 4000, N = 1000 };
+  int n_heaviest_within = 0;
+  int n_not_pulled_back = 0;
+  double worst = 0.0;
+  Random random = random_start();
+  for (int trial = 0; trial < TRIALS; ++trial) {
+    const StringCoefs coefs = {
+        .k1 = 1.0,
+        .k2 = random_between(&random, -1.5, 1.0),
+        .z0 = random_between(&random, 0.0, 0.2),
+        .z1 = random_below(&random, 2) ? random_between(&random, 0.0, 0.2) : 0.0,
+        .k3 = random_below(&random, 8) ? random_between(&random, -0.2, 0.4) : 0.0,
+    };
+    const double truth = oracle_headroom(coefs, N);
+    const double found = tuning_headroom(coefs, N);
+    const Pole last = tuning_mode(coefs, N, N);
+    assert_true(found <= truth + 64.0 * DBL_EPSILON);
+    if (isfinite(found)) {
+      worst = fmax(worst, truth - found);
+      n_heaviest_within += 1.0 - 0.25 * (last.a + 2.0 * last.g) > truth + 1e-3;
+    }
+    assert_int_equal(isfinite(found), isfinite(truth));
+    n_not_pulled_back += !isfinite(found) && last.a > 0.0;
+  }
+  print_message("  heaviest before the last mode %d times, not pulled back there %d times\n",
+                n_heaviest_within, n_not_pulled_back);
+  assert_true(n_heaviest_within > 100 && n_not_pulled_back > 100);
+  /* The nearest mode is half of 2π/N off the peak, where the load is at most 2.4 d²/dλ² below it.
+   */
+  assert_within("headroom below that of the modes", worst, 1e-5);
+}
+
 static void string_that_is_not_pulled_back_has_no_headroom(void** state) {
   (void)state;
   for (uint32_t n = 2; n <= 40; ++n) {
     const double lambda = tuning_lambda(n, n);
-    const StringCoefs coefs = {0.5, -0.5 * 1.001 / lambda, 0.0, 0.0};
+    const StringCoefs coefs = {.k1 = 0.5, .k2 = -0.5 * 1.001 / lambda};
     assert_true(tuning_headroom(coefs, n) == -HUGE_VAL);
     assert_true(oracle_spectral_radius(coefs, n) > 1.0 + RADIUS_MARGIN);
   }
@@ -204,6 +243,7 @@ int main(void) {
       cmocka_unit_test(note_close_below_nyquist_has_one_mass_and_above_none),
       cmocka_unit_test(headroom_is_what_the_dense_matrix_says),
       cmocka_unit_test(headroom_with_negative_bending_is_never_too_high),
+      cmocka_unit_test(headroom_is_that_of_the_whole_cubic),
       cmocka_unit_test(string_that_is_not_pulled_back_has_no_headroom),
       cmocka_unit_test(paper_strings_that_explode_are_known),
   };
