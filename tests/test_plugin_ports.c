@@ -10,7 +10,6 @@
 #include <lv2/port-props/port-props.h>
 #include <lv2/urid/urid.h>
 
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <string.h>
@@ -159,75 +158,6 @@ static void the_turtle_says_what_the_code_says(void** state) {
   host_free(host);
 }
 
-/* What a host never connects is at its default, so with none connected it sounds as with all. */
-static void an_instance_comes_up_at_its_defaults(void** state) {
-  (void)state;
-  Sound sounds[2] = {sound_new(9600), sound_new(9600)};
-  for (int i = 0; i < 2; ++i) {
-    Host* const host = strings_open(48000.0, 960);
-    for (uint32_t port = 0; i == 1 && port < host_n_ports(host); ++port) {
-      if (host_port_is_control_input(host, port)) {
-        host_connect(host, port, NULL);
-      }
-    }
-    strings_note_on(host, 10, 50, 100);
-    strings_note_off(host, 5000, 50);
-    strings_run(host, &sounds[i], 0, 9600, 960);
-    host_free(host);
-  }
-  assert_true(sound_is_same(&sounds[0], &sounds[1]));
-  sound_free(&sounds[0]);
-  sound_free(&sounds[1]);
-}
-
-/* One note with every sounding port at `value`, or at the end of its range that is given. */
-static Sound play_with(double value, bool is_end) {
-  Host* const host = strings_open(48000.0, 960);
-  Sound sound = sound_new(4800);
-  for (uint32_t i = PORT_LEVEL; i <= PORT_TUNING; ++i) {
-    HostRange range;
-    assert_true(host_range(host, host_port_symbol(host, i), &range));
-    const double end = (double)(value < 0.0 ? range.min : range.max);
-    strings_set(host, host_port_symbol(host, i), is_end ? end : value);
-  }
-  strings_set(host, "pickup", 0.4); /* At the ends there is nothing to hear */
-  strings_note_on(host, 10, 50, 100);
-  strings_run(host, &sound, 0, 4800, 960);
-  host_free(host);
-  return sound;
-}
-
-static void what_is_out_of_range_is_clamped(void** state) {
-  static const double values[] = {-1e30, 1e30, -HUGE_VAL, HUGE_VAL};
-  (void)state;
-  for (int i = 0; i < 4; ++i) {
-    Sound clamped = play_with(values[i], false);
-    Sound end = play_with(values[i], true);
-    assert_true(sound_is_same(&clamped, &end));
-    sound_free(&clamped);
-    sound_free(&end);
-  }
-}
-
-static void what_is_no_number_is_the_default(void** state) {
-  (void)state;
-  Sound sounds[2] = {sound_new(4800), sound_new(4800)};
-  for (int i = 0; i < 2; ++i) {
-    Host* const host = strings_open(48000.0, 960);
-    for (uint32_t port = 0; i == 1 && port < host_n_ports(host); ++port) {
-      if (host_port_is_control_input(host, port)) {
-        strings_set(host, host_port_symbol(host, port), (double)NAN);
-      }
-    }
-    strings_note_on(host, 10, 50, 100);
-    strings_run(host, &sounds[i], 0, 4800, 960);
-    host_free(host);
-  }
-  assert_true(sound_is_same(&sounds[0], &sounds[1]));
-  sound_free(&sounds[0]);
-  sound_free(&sounds[1]);
-}
-
 /* While there is no latency, a port that reports it does harm. */
 static void no_latency_is_reported(void** state) {
   (void)state;
@@ -275,9 +205,6 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_turtle_says_what_is_pinned),
       cmocka_unit_test(the_turtle_says_what_the_code_says),
-      cmocka_unit_test(an_instance_comes_up_at_its_defaults),
-      cmocka_unit_test(what_is_out_of_range_is_clamped),
-      cmocka_unit_test(what_is_no_number_is_the_default),
       cmocka_unit_test(no_latency_is_reported),
       cmocka_unit_test(it_is_an_instrument_that_needs_a_map_alone),
       cmocka_unit_test(the_control_port_takes_midi),
