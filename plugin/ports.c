@@ -43,6 +43,7 @@ Patch ports_patch(const Controls* controls) {
       .loss = (double)v[PORT_LOSS],
       /* At its minimum the string is perfectly flexible, and bending is not computed. */
       .inharmonicity = v[PORT_STIFFNESS] > 1e-6f ? (double)v[PORT_STIFFNESS] : 0.0,
+      .partials = (Partials)(v[PORT_PARTIALS] + 0.5f),
       .pickup = (double)v[PORT_PICKUP],
       .spread = (double)v[PORT_SPREAD],
       .pluck = (double)v[PORT_PLUCK],

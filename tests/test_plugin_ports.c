@@ -23,11 +23,22 @@
 #define VALUE LV2_CORE__ControlPort
 
 /* Properties of which a port must have exactly those named. */
-enum { LOGARITHMIC = 1, INTEGER = 2, TOGGLED = 4, EXPENSIVE = 8, NOT_AUTOMATIC = 16 };
+enum {
+  LOGARITHMIC = 1,
+  INTEGER = 2,
+  TOGGLED = 4,
+  EXPENSIVE = 8,
+  NOT_AUTOMATIC = 16,
+  ENUMERATION = 32
+};
 
 static const char* const property_uris[] = {
-    LV2_PORT_PROPS__logarithmic,  LV2_CORE__integer, LV2_CORE__toggled, LV2_PORT_PROPS__expensive,
+    LV2_PORT_PROPS__logarithmic,
+    LV2_CORE__integer,
+    LV2_CORE__toggled,
+    LV2_PORT_PROPS__expensive,
     LV2_PORT_PROPS__notAutomatic,
+    LV2_CORE__enumeration,
 };
 
 typedef struct {
@@ -62,6 +73,7 @@ static const Port pinned[] = {
     {"sounding", OUT, VALUE, NULL, INTEGER, 0.0f, 128.0f, 0.0f},
     {"mass_count", OUT, VALUE, NULL, INTEGER, 0.0f, 131072.0f, 0.0f},
     {"headroom", OUT, VALUE, NULL, 0, 0.0f, 1.0f, 1.0f},
+    {"partials", IN, VALUE, NULL, INTEGER | ENUMERATION, 0.0f, 2.0f, 1.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };
@@ -129,6 +141,26 @@ static void the_turtle_says_what_is_pinned(void** state) {
       check_range(host, port, &pinned[i]);
     }
   }
+  host_free(host);
+}
+
+/* The names of the values of an enumeration are what sessions and scripts are read by. */
+static void the_partials_have_their_names(void** state) {
+  static const char* const names[] = {"Lumped", "True", "Truest"};
+  (void)state;
+  Host* const host = strings_open(48000.0, 64);
+  const LilvPort* const port = lilv_plugin_get_port_by_index(host_plugin(host), PORT_PARTIALS);
+  LilvScalePoints* const points = lilv_port_get_scale_points(host_plugin(host), port);
+  unsigned seen = 0;
+  LILV_FOREACH(scale_points, i, points) {
+    const LilvScalePoint* const point = lilv_scale_points_get(points, i);
+    const float value = lilv_node_as_float(lilv_scale_point_get_value(point));
+    assert_true(value == 0.0f || value == 1.0f || value == 2.0f);
+    assert_string_equal(lilv_node_as_string(lilv_scale_point_get_label(point)), names[(int)value]);
+    seen += 1u << (int)value;
+  }
+  assert_int_equal(seen, 7);
+  lilv_scale_points_free(points);
   host_free(host);
 }
 
@@ -204,6 +236,7 @@ static void the_control_port_takes_midi(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_turtle_says_what_is_pinned),
+      cmocka_unit_test(the_partials_have_their_names),
       cmocka_unit_test(the_turtle_says_what_the_code_says),
       cmocka_unit_test(no_latency_is_reported),
       cmocka_unit_test(it_is_an_instrument_that_needs_a_map_alone),

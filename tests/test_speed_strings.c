@@ -84,6 +84,7 @@ static void all_88_keys_cost_less_than_15_percent(void** state) {
   skip_where_sanitized();
   Host* const host = open_strings();
   host_set(host, "masses", 128.0f);
+  host_set(host, "partials", 0.0f); /* Those of the bare chain, which is what the promise is for */
   host_set(host, "damping", 0.3f);
   for (unsigned key = LOWEST_KEY; key <= HIGHEST_KEY; ++key) {
     const uint8_t note_on[3] = {0x90, (uint8_t)key, 100};
