@@ -1,18 +1,20 @@
 /**
-   One string as a chain of masses, in single precision: the loop that makes the sound.
+   One string as a chain of masses: the loop that makes the sound.
 
    The step is that of core/tuning.h, link by link.  With Δ the difference between a mass and the
    one before it,
 
-       link = k1 Δx + z1 Δu + k2 Δ(L x) ;   u_i += link_{i+1} − link_i − z0 u_i ;   x_i += u_i.
+       link = k1 Δx + z1 Δu + k2 Δ(L x) + k3 Δ(L² x) ;
+       u_i += link_{i+1} − link_i − z0 u_i ;   x_i += u_i.
 
    It keeps position x and scaled velocity u = h v, never two positions: in floats that is worth 40
    dB.
 
-   Precision.  Floats do for strings that die fast.  Rounding changes what a string loses in a step
-   by up to 3 in 10⁹, which is nothing to a string that loses 1 in 10⁴; but one that loses 1 in 10⁶
-   would die a part in a hundred too soon or too late, so weakly damped strings are stepped in
-   doubles.
+   Numbers.  What is touched or moves is kept in floats.  Rounding changes what a string loses in a
+   step by up to 3 in 10⁹, which is nothing to one that loses 1 in 10⁴; but one that loses 1 in 10⁶
+   would die a part in a hundred too soon or too late.  So a string that is left alone and weakly
+   damped is put into whole numbers (core/chain_whole.h), which do not drift, or if it is so short
+   or rings so long that their noise would be too near, into doubles: see chain_settle().
 
    Layout.  The string is cut into as many segments as the kernel has lanes, S cells each, one a
    lane: mass i is lane i div S of cell i mod S, and a cell is a vector of x and a vector of u.  So
@@ -41,22 +43,26 @@ typedef struct {
 /** A string; zero is one without masses. */
 typedef struct {
   const ChainKernel* kernel;
-  const ChainLoops* loops; /**< Those of the precision it has now */
+  ChainNumbers numbers;    /**< What its masses are kept in now */
+  const ChainLoops* loops; /**< Those for them */
   void* memory;            /**< The caller's */
-  void* cells;             /**< Where in it the masses are, in the precision of now */
+  void* cells;             /**< Where in it the masses are now */
   uint32_t n_masses;       /**< N */
   uint32_t n_cells;        /**< S = ⌈N / lanes⌉ */
   uint32_t n_gliding; /**< Steps until `goal` is reached; 0 when the coefficients stand still */
   StringCoefs now;    /**< What the next step uses, while still */
   StringCoefs change; /**< What a step adds to it, while gliding */
   StringCoefs goal;   /**< Where a glide ends */
+  StringCoefs whole;  /**< CHAIN_FIXED: what the next step uses instead, see ChainWhole */
+  double gain;        /**< CHAIN_FIXED: of a number */
+  double fade;        /**< CHAIN_FIXED: what a step makes of the gain */
 } Chain;
 
 /** Bytes that hold `n_masses` with any kernel; a multiple of CHAIN_ALIGNMENT. */
 size_t chain_size(uint32_t n_masses);
 
 /**
-   Make a chain of `n_masses` at rest.
+   Make a chain of `n_masses` at rest, in floats.
 
    @param kernel    From chain_kernel()
    @param memory    chain_size(n_masses) bytes, aligned to CHAIN_ALIGNMENT; kept by the chain, not
@@ -115,6 +121,21 @@ void chain_run(
 
 /** Frames until the chain's glide ends; UINT32_MAX if it stands still. */
 uint32_t chain_stretch(const Chain* chain);
+
+/**
+   Keep the chain in the numbers that suit it best; it stays there until it is touched: set, pushed,
+   placed or made to glide.  Call it now and then, a few dozen times a second, for it also watches
+   that the numbers are neither too large nor too small.  Nothing is done while the chain glides.
+*/
+void chain_settle(Chain* chain);
+
+/**
+   Keep the chain in certain numbers, with all its motion.
+
+   @return false, and nothing done, for CHAIN_FIXED where they cannot be had: while it glides, or
+   see chain_whole_design()
+*/
+bool chain_hold(Chain* chain, ChainNumbers numbers);
 
 /** A chain and where it is read, for chain_run_all(). */
 typedef struct {

@@ -2,10 +2,12 @@
 
 #include <stdbool.h>
 
-static const ChainKernel plain = {"plain", &chain_loops_float4, &chain_loops_double2};
+static const ChainKernel plain = {"plain",
+                                  {&chain_loops_float4, &chain_loops_double2, &chain_loops_fixed4}};
 
 #ifdef HOOKE_AVX2
-static const ChainKernel avx2 = {"AVX2 and FMA", &chain_loops_float8, &chain_loops_double4};
+static const ChainKernel avx2 = {"AVX2 and FMA",
+                                 {&chain_loops_float8, &chain_loops_double4, &chain_loops_fixed8}};
 
 static bool has_avx2(void) {
   __builtin_cpu_init();

@@ -3,164 +3,48 @@
    themselves.
 
    Before it is included, these say for what:
-   CHAIN_LOOP_NUMBER   float or double
-   CHAIN_LOOP_LANES    numbers in a vector
-   CHAIN_LOOP_BEFORE   how to shuffle (v, 0) so that lane l has lane l − 1, and the first the wall
-   CHAIN_LOOP_BEHIND   how to shuffle (v, 0) so that lane l has lane l + 1, and the last the wall
-   CHAIN_LOOP_NAME     the loops that it makes
+   CHAIN_LOOP_NUMBER    float, double, or int32_t for whole numbers
+   CHAIN_LOOP_REAL      what is computed with: float or double
+   CHAIN_LOOP_IS_FIXED  whether the numbers are whole; if so:
+   CHAIN_LOOP_WHOLE(v)  the nearest whole numbers to a vector of float
+   CHAIN_LOOP_LANES     numbers in a vector
+   CHAIN_LOOP_BEFORE    how to shuffle (v, 0) so that lane l has lane l − 1, and the first the wall
+   CHAIN_LOOP_BEHIND    how to shuffle (v, 0) so that lane l has lane l + 1, and the last the wall
+   CHAIN_LOOP_NAME      the loops that it makes
 
-   Glossary:  x  position;  u  scaled velocity h v;  link  what a spring and damper pull with, k1 Δx
-   + z1 Δu + k2 Δ(L x), Δ being the difference between neighbours;  bow  L x, how far a mass is from
-   the middle of its neighbours;  j  cell.
+   Glossary:  x  position;  u  scaled velocity h v;  link  what pulls two neighbours together, k1 Δx
+   + z1 Δu + k2 Δ(L x) + k3 Δ(L² x), Δ being the difference between neighbours;  bow  L x, how far a
+   mass is from the middle of its neighbours;  flex  L² x;  j  cell.
 
    The differences come before the products: they are nearly exact, so a link is as precise as it is
-   small.
+   small.  In whole numbers they are exact, and so is all that moves; only a link is rounded.
 */
-#include "core/chain_kernel.h"
-
-#include <stdbool.h>
-
-#define INLINE static inline __attribute__((always_inline))
-
-typedef CHAIN_LOOP_NUMBER Number;
-typedef Number Vector __attribute__((vector_size(CHAIN_LOOP_LANES * sizeof(Number)), may_alias));
-typedef int64_t Mask __attribute__((vector_size(CHAIN_LOOP_LANES * sizeof(Number))));
-
-/* The coefficients in the precision of the loop. */
-typedef struct {
-  Number k1, k2, z0, z1;
-} Coefs;
-
-/* As many masses as lanes: where they are, and how far they move in a step. */
-typedef struct {
-  Vector x;
-  Vector u;
-} Cell;
-
-enum { MAX_CELLS = CHAIN_MAX_MASSES / CHAIN_LOOP_LANES };
-
-/* Lane l takes lane l − 1: what lies before the first cell.  Lane 0 takes the wall. */
-INLINE Vector before(Vector v) {
-  const Vector wall = {0};
-  return __builtin_shufflevector(v, wall, CHAIN_LOOP_BEFORE);
-}
-
-/* Lane l takes lane l + 1: what lies behind the last cell.  The last lane takes the wall. */
-INLINE Vector behind(Vector v) {
-  const Vector wall = {0};
-  return __builtin_shufflevector(v, wall, CHAIN_LOOP_BEHIND);
-}
-
-/* All ones but for the wall, where the wall is a lane of the cell after the last mass. */
-INLINE Mask wall_mask(uint32_t wall_lane) {
-  union {
-    unsigned char bytes[CHAIN_LOOP_LANES][sizeof(Number)];
-    Mask mask;
-  } all;
-  for (uint32_t l = 0; l < CHAIN_LOOP_LANES; ++l) {
-    for (size_t i = 0; i < sizeof(Number); ++i) {
-      all.bytes[l][i] = l == wall_lane ? 0x00 : 0xFF;
-    }
-  }
-  return all.mask;
-}
-
-INLINE Vector hold(Vector v, Mask mask) {
-  return (Vector)((Mask)v & mask);
-}
-
-INLINE Vector link_of(Vector dx, Vector du, Coefs c) {
-  return c.k1 * dx + c.z1 * du;
-}
-
-INLINE Vector link_ahead(const Cell* cell, Coefs c) {
-  return link_of(cell[1].x - cell->x, cell[1].u - cell->u, c);
-}
-
-/* Velocity first, then position with the new velocity. */
-INLINE void move(Cell* cell, Vector pulls, Number z0) {
-  const Vector u = cell->u + (pulls - z0 * cell->u);
-  cell->u = u;
-  cell->x += u;
-}
-
-/* One step of a perfectly flexible string: each link is computed once and carried. */
-INLINE void step_flexible(Cell* cells, uint32_t n_cells, Coefs c) {
-  const uint32_t last = n_cells - 1;
-  const Vector x_behind = behind(cells[0].x);
-  const Vector u_behind = behind(cells[0].u);
-  Vector link_before =
-      link_of(cells[0].x - before(cells[last].x), cells[0].u - before(cells[last].u), c);
-  for (uint32_t j = 0; j < last; ++j) {
-    const Vector link = link_ahead(&cells[j], c);
-    move(&cells[j], link - link_before, c.z0);
-    link_before = link;
-  }
-  const Vector link = link_of(x_behind - cells[last].x, u_behind - cells[last].u, c);
-  move(&cells[last], link - link_before, c.z0);
-}
-
-/* L x of every cell, into bow[1 …], and of those before and behind. */
-INLINE void
-find_bow(Vector* bow, const Cell* cells, uint32_t n_cells, uint32_t wall_cell, Mask mask) {
-  const uint32_t last = n_cells - 1;
-  Vector slope_before = cells[0].x - before(cells[last].x);
-  for (uint32_t j = 0; j < last; ++j) {
-    const Vector slope = cells[j + 1].x - cells[j].x;
-    bow[j + 1] = slope_before - slope;
-    slope_before = slope;
-  }
-  bow[n_cells] = slope_before - (behind(cells[0].x) - cells[last].x);
-  /* A hinge carries no moment: L x is nought at the wall, though its neighbour is not. */
-  bow[wall_cell + 1] = hold(bow[wall_cell + 1], mask);
-  bow[0] = before(bow[n_cells]);
-  bow[n_cells + 1] = behind(bow[1]);
-}
-
-/* One step of a string with bending: links look two masses away, so L x is computed for all first.
- */
-INLINE void step_bending(Cell* cells, uint32_t n_cells, Coefs c, uint32_t wall_cell, Mask mask) {
-  Vector bow[MAX_CELLS + 2];
-  const uint32_t last = n_cells - 1;
-  const Vector x_behind = behind(cells[0].x);
-  const Vector u_behind = behind(cells[0].u);
-  find_bow(bow, cells, n_cells, wall_cell, mask);
-  Vector link_before =
-      link_of(cells[0].x - before(cells[last].x), cells[0].u - before(cells[last].u), c) +
-      c.k2 * (bow[1] - bow[0]);
-  for (uint32_t j = 0; j < last; ++j) {
-    const Vector link = link_ahead(&cells[j], c) + c.k2 * (bow[j + 2] - bow[j + 1]);
-    move(&cells[j], link - link_before, c.z0);
-    link_before = link;
-  }
-  const Vector link = link_of(x_behind - cells[last].x, u_behind - cells[last].u, c) +
-                      c.k2 * (bow[n_cells + 1] - bow[n_cells]);
-  move(&cells[last], link - link_before, c.z0);
-}
+#include "core/chain_step.h"
 
 INLINE Coefs narrow(StringCoefs wide) {
-  return (Coefs){(Number)wide.k1, (Number)wide.k2, (Number)wide.z0, (Number)wide.z1};
+  return (Coefs){
+      .k1 = (Real)wide.k1,
+      .k2 = (Real)wide.k2,
+      .k3 = (Real)wide.k3,
+      .z0 = (Real)wide.z0,
+      .z1 = (Real)wide.z1,
+  };
 }
 
 INLINE StringCoefs advance(StringCoefs now, StringCoefs change) {
-  return (StringCoefs){now.k1 + change.k1, now.k2 + change.k2, now.z0 + change.z0,
-                       now.z1 + change.z1};
+  return (StringCoefs){
+      .k1 = now.k1 + change.k1,
+      .k2 = now.k2 + change.k2,
+      .k3 = now.k3 + change.k3,
+      .z0 = now.z0 + change.z0,
+      .z1 = now.z1 + change.z1,
+  };
 }
 
 INLINE float read_tap(const Number* numbers, const ChainReader* reader) {
-  return (float)((Number)reader->weight[0] * numbers[reader->offset[0]] +
-                 (Number)reader->weight[1] * numbers[reader->offset[1]]);
+  return (float)((Real)reader->weight[0] * (Real)numbers[reader->offset[0]] +
+                 (Real)reader->weight[1] * (Real)numbers[reader->offset[1]]);
 }
-
-/* What a string is stepped with: read once before the frames. */
-typedef struct {
-  Cell* cells;
-  uint32_t n_cells;
-  uint32_t wall_cell;
-  Mask mask;
-  StringCoefs wide;
-  Coefs now;
-} Strand;
 
 INLINE Strand strand_of(const ChainWork* work) {
   return (Strand){
@@ -170,64 +54,145 @@ INLINE Strand strand_of(const ChainWork* work) {
       .mask = wall_mask(work->n_masses / work->n_cells),
       .wide = *work->now,
       .now = narrow(*work->now),
+      .gain = CHAIN_LOOP_IS_FIXED ? *work->gain : 1.0,
   };
 }
 
-INLINE void step(Strand* strand, bool is_bending) {
-  Cell* const cells = strand->cells;
-  if (is_bending) {
-    step_bending(cells, strand->n_cells, strand->now, strand->wall_cell, strand->mask);
-  } else {
-    step_flexible(cells, strand->n_cells, strand->now);
+/* One frame of one string. */
+INLINE void
+run_frame(Strand* strand, const ChainWork* work, uint32_t n, float* const* out, Scene scene) {
+  if (scene.is_moving) {
+    strand->wide = advance(strand->wide, work->change);
+    strand->now = narrow(strand->wide);
   }
-  cells[strand->wall_cell].x = hold(cells[strand->wall_cell].x, strand->mask);
-  cells[strand->wall_cell].u = hold(cells[strand->wall_cell].u, strand->mask);
+  step(strand, scene);
+  if (CHAIN_LOOP_IS_FIXED && scene.damping != CHAIN_UNDAMPED) {
+    strand->gain *= work->fade;
+  }
+  for (uint32_t t = 0; t < scene.n_taps; ++t) {
+    const float read = read_tap((const Number*)strand->cells, &work->readers[t]);
+    out[t][n] += CHAIN_LOOP_IS_FIXED ? (float)strand->gain * read : read;
+  }
 }
 
-/* The flags are constants wherever this is used, so nothing of them is left to test in the loop. */
-INLINE void run(const ChainWork* works,
-                uint32_t n_works,
-                uint32_t n_frames,
-                float* const* out,
-                bool is_bending,
-                bool is_moving,
-                uint32_t n_taps) {
+INLINE void
+run(const ChainWork* works, uint32_t n_works, uint32_t n_frames, float* const* out, Scene scene) {
   Strand strands[CHAIN_MAX_BATCH];
   for (uint32_t w = 0; w < n_works; ++w) {
     strands[w] = strand_of(&works[w]);
   }
   for (uint32_t n = 0; n < n_frames; ++n) {
     for (uint32_t w = 0; w < n_works; ++w) {
-      Strand* const strand = &strands[w];
-      if (is_moving) {
-        strand->wide = advance(strand->wide, works[w].change);
-        strand->now = narrow(strand->wide);
-      }
-      step(strand, is_bending);
-      for (uint32_t t = 0; t < n_taps; ++t) {
-        out[t][n] += read_tap((const Number*)strand->cells, &works[w].readers[t]);
-      }
+      run_frame(&strands[w], &works[w], n, out, scene);
     }
   }
-  for (uint32_t w = 0; is_moving && w < n_works; ++w) {
-    *works[w].now = strands[w].wide;
+  for (uint32_t w = 0; w < n_works; ++w) {
+    if (scene.is_moving) {
+      *works[w].now = strands[w].wide;
+    }
+    if (CHAIN_LOOP_IS_FIXED) {
+      *works[w].gain = strands[w].gain;
+    }
   }
 }
 
-#define LOOP(name, is_bending, is_moving, n_taps)                                                  \
-  static void run_##name(const ChainWork* works, uint32_t n_works, uint32_t n_frames,              \
-                         float* const* out) {                                                      \
-    run(works, n_works, n_frames, out, is_bending, is_moving, n_taps);                             \
+INLINE double sum_of(RealVector v) {
+  double sum = 0.0;
+  for (uint32_t l = 0; l < CHAIN_LOOP_LANES; ++l) {
+    sum += (double)v[l];
   }
-CHAIN_SCENES(LOOP)
+  return sum;
+}
+
+/* Half a step back, where x and u are of the same time. */
+INLINE RealVector half_back(const Cell* cell) {
+  return real(cell->x) - (Real)0.5 * real(cell->u);
+}
+
+static ChainSums sum(const void* memory, uint32_t n_cells) {
+  const Cell* const cells = memory;
+  const Cell* const last = &cells[n_cells - 1];
+  const Cell end = {before(last->x), before(last->u)};
+  RealVector xx = {0};
+  RealVector xu = {0};
+  RealVector uu = {0};
+  RealVector yy = {0};
+  RealVector y_before = half_back(&end);
+  for (uint32_t j = 0; j < n_cells; ++j) {
+    const RealVector x = real(cells[j].x);
+    const RealVector u = real(cells[j].u);
+    const RealVector y = half_back(&cells[j]);
+    xx += x * x;
+    xu += x * u;
+    uu += u * u;
+    yy += (y - y_before) * (y - y_before);
+    y_before = y;
+  }
+  const Real y_last = y_before[CHAIN_LOOP_LANES - 1];
+  return (ChainSums){
+      .xx = sum_of(xx),
+      .xu = sum_of(xu),
+      .uu = sum_of(uu),
+      .yy = sum_of(yy) + (double)(y_last * y_last),
+  };
+}
+
+#if CHAIN_LOOP_IS_FIXED
+/*
+  The air is taken out of the loop: what dampers to the ground do to all modes alike, ρ a step, is
+  in the gain, x = gain X.  So a step ago it was x − u = (gain/ρ) (X − U).
+*/
+static void take(void* memory, uint32_t n_cells, double gain, double fade) {
+  Cell* const cells = memory;
+  const Real of_x = (Real)((1.0 - fade) / gain);
+  const Real of_u = (Real)(fade / gain);
+  const Real scale = (Real)(1.0 / gain);
+  for (uint32_t j = 0; j < n_cells; ++j) {
+    const RealVector x = (RealVector)cells[j].x;
+    const RealVector u = (RealVector)cells[j].u;
+    cells[j] = (Cell){number(scale * x), number(of_x * x + of_u * u)};
+  }
+}
+
+static void give(void* memory, uint32_t n_cells, double gain, double fade) {
+  Cell* const cells = memory;
+  const Real of_x = (Real)(gain - gain / fade);
+  const Real of_u = (Real)(gain / fade);
+  const Real scale = (Real)gain;
+  for (uint32_t j = 0; j < n_cells; ++j) {
+    const RealVector x = real(cells[j].x);
+    const RealVector u = real(cells[j].u);
+    cells[j] = (Cell){(Vector)(scale * x), (Vector)(of_x * x + of_u * u)};
+  }
+}
+#endif
+
+#define LOOP(damping, elasticity, is_moving, n_taps)                                               \
+  static void run_##damping##_##elasticity##_##is_moving##_##n_taps(                               \
+      const ChainWork* works, uint32_t n_works, uint32_t n_frames, float* const* out) {            \
+    run(works, n_works, n_frames, out,                                                             \
+        (Scene){CHAIN_##damping, CHAIN_##elasticity, is_moving, n_taps});                          \
+  }
+CHAIN_STILL_SCENES(LOOP)
+#if !CHAIN_LOOP_IS_FIXED
+CHAIN_MOVING_SCENES(LOOP)
+#endif
 #undef LOOP
 
-#define ENTRY(name, is_bending, is_moving, n_taps)                                                 \
-  .loops[is_bending][is_moving][n_taps] = run_##name,
+#define ENTRY(damping, elasticity, is_moving, n_taps)                                              \
+  .loops[CHAIN_##damping][CHAIN_##elasticity][is_moving][n_taps] =                                 \
+      run_##damping##_##elasticity##_##is_moving##_##n_taps,
 const ChainLoops CHAIN_LOOP_NAME = {
     .number_size = sizeof(Number),
     .n_lanes = CHAIN_LOOP_LANES,
-    CHAIN_SCENES(ENTRY) //
+    .sum = sum,
+#if CHAIN_LOOP_IS_FIXED
+    .take = take,
+    .give = give,
+#else
+    CHAIN_MOVING_SCENES(ENTRY) //
+#endif
+    CHAIN_STILL_SCENES(ENTRY) //
 };
 #undef ENTRY
 #undef INLINE

@@ -140,6 +140,8 @@ void harp_string_doze(HarpString* string, uint32_t n_frames) {
   const double silence = fmax(SILENCE * string->loudest, STILLNESS);
   if (is_choked(string) || chain_amplitude(&string->chain, string->a1) < silence) {
     harp_string_sleep(string);
+  } else {
+    chain_settle(&string->chain);
   }
   string->n_choked += string->damper == DAMPER_CHOKING ? n_frames : 0;
 }
