@@ -10,7 +10,8 @@ static const double complex J = (double complex)I;
 /* Of the Kaiser window: side lobes below −115 dB, the first null at √(1 + (β/π)²) = 5.2 bins. */
 static const double BETA = 16.0;
 
-/* Periods in the shortest window: the partials 0.7 f0 away are 5.6 bins off. */
+/* Periods, of what lies between partials, in the shortest window: those 0.7 of it away are 5.6 bins
+ * off. */
 static const double LEAST_PERIODS = 8.0;
 static const double MOST_PERIODS = 64.0;
 
@@ -75,13 +76,18 @@ double measure_cents(double f_hz, double reference_hz) {
 }
 
 bool measure_tone(const float* samples, size_t n, double rate_hz, Tone near, Tone* tone) {
-  const double period = rate_hz / near.f0_hz;
+  return measure_partial(samples, n, rate_hz, near, near.f0_hz, tone);
+}
+
+bool measure_partial(
+    const float* samples, size_t n, double rate_hz, Tone near, double spacing_hz, Tone* tone) {
+  const double period = rate_hz / spacing_hz;
   const size_t used = (size_t)fmin((double)n, MOST_DECAY * near.tau_s * rate_hz + 16.0 * period);
   const double wanted =
       fmin(fmax((double)used / 6.0, LEAST_PERIODS * period), MOST_PERIODS * period);
   const size_t length = (size_t)wanted;
   const size_t hop = length / 8 + 1;
-  const double omega = 2.0 * PI / period;
+  const double omega = 2.0 * PI * near.f0_hz / rate_hz;
   if ((double)used < 16.0 * period) {
     return false;
   }

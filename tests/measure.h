@@ -26,6 +26,11 @@ double measure_cents(double f_hz, double reference_hz);
 */
 bool measure_tone(const float* samples, size_t n, double rate_hz, Tone near, Tone* tone);
 
+/** As measure_tone(), of one partial among others: the windows are as long as `spacing_hz` asks,
+ * the distance to the next partial on either side, rather than f0. */
+bool measure_partial(
+    const float* samples, size_t n, double rate_hz, Tone near, double spacing_hz, Tone* tone);
+
 /** Largest magnitude of `n` samples; NaN if any is not finite. */
 double measure_peak(const float* samples, size_t n);
 
