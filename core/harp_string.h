@@ -64,8 +64,8 @@ void harp_string_pluck(
 
 /**
    Bring a ringing string to the patch, bend and damper in `n_glide` frames, its motion kept.  Where
-   that would pass its limit stiffness and loss give way (tuning_fit()); a pitch that cannot be had
-   at all chokes it.
+   that would pass its limit stiffness, true partials and loss give way (tuning_fit()); a pitch that
+   cannot be had at all chokes it.
 */
 void harp_string_retune(
     HarpString* string, const Patch* patch, double bend_semitones, Damper damper, uint32_t n_glide);

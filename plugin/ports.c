@@ -41,7 +41,7 @@ Patch ports_patch(const Controls* controls) {
       .damping_per_s = (double)v[PORT_DAMPING],
       .tracking = (double)v[PORT_TRACKING],
       .loss = (double)v[PORT_LOSS],
-      /* At its minimum the string is perfectly flexible, and bending is not computed. */
+      /* At its minimum the string is perfectly flexible. */
       .inharmonicity = v[PORT_STIFFNESS] > 1e-6f ? (double)v[PORT_STIFFNESS] : 0.0,
       .partials = (Partials)(v[PORT_PARTIALS] + 0.5f),
       .pickup = (double)v[PORT_PICKUP],
