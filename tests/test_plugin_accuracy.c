@@ -24,7 +24,7 @@ static const double LEAST_PERIODS = 12.0;
 static const double rates_hz[] = {22050.0, 44100.0, 48000.0, 96000.0, 192000.0};
 
 typedef struct {
-  float damping, tracking, loss, stiffness, masses, tuning;
+  float damping, tracking, loss, stiffness, masses, tuning, partials;
 } Setting;
 
 typedef struct {
@@ -88,6 +88,7 @@ static void set_all(Host* host, const Setting* setting) {
   host_set(host, "stiffness", setting->stiffness);
   host_set(host, "masses", setting->masses);
   host_set(host, "tuning", setting->tuning);
+  host_set(host, "partials", setting->partials);
   host_set(host, "pickup", 0.45f);
   host_set(host, "spread", 0.0f);
   host_set(host, "pluck", 0.4f);
@@ -134,12 +135,12 @@ static void check(Bench* bench, uint32_t key, const Setting* setting, Worst* wor
   if (is_broken) {
     print_message("key %u at %g Hz: %.5f cents, decay off by %.5f %%, headroom %g, %g masses "
                   "(damping %g tracking %g loss %g "
-                  "stiffness %g masses %g tuning %g)\n",
+                  "stiffness %g masses %g tuning %g partials %g)\n",
                   key, bench->rate_hz, cents, 100.0 * decay,
                   (double)host_get(bench->host, "headroom"),
                   (double)host_get(bench->host, "mass_count"), (double)setting->damping,
                   (double)setting->tracking, (double)setting->loss, (double)setting->stiffness,
-                  (double)setting->masses, (double)setting->tuning);
+                  (double)setting->masses, (double)setting->tuning, (double)setting->partials);
   }
 }
 
@@ -169,7 +170,8 @@ static void every_key_has_its_pitch_and_its_decay(void** state) {
   random_state = seed;
   for (uint32_t key = LOWEST_KEY; key <= HIGHEST_KEY; ++key) {
     for (int i = 0; i < n_draws; ++i) {
-      const Setting setting = draw_setting(key);
+      Setting setting = draw_setting(key);
+      setting.partials = (float)((key + (uint32_t)i) % 3);
       check(&bench, key, &setting, &worst);
     }
   }
