@@ -127,6 +127,7 @@ static ChainWork work_of(const ChainPart* part, uint32_t n_taps) {
       .change = chain->change,
       .gain = &chain->gain,
       .fade = chain->fade,
+      .chance = &chain->chance,
   };
   for (uint32_t t = 0; t < n_taps; ++t) {
     work.readers[t] = reader_of(chain, part->taps[t]);

@@ -56,6 +56,7 @@ typedef struct {
   StringCoefs whole;  /**< CHAIN_FIXED: what the next step uses instead, see ChainWhole */
   double gain;        /**< CHAIN_FIXED: of a number */
   double fade;        /**< CHAIN_FIXED: what a step makes of the gain */
+  uint32_t chance;    /**< CHAIN_FIXED: where the dither is */
 } Chain;
 
 /** Bytes that hold `n_masses` with any kernel; a multiple of CHAIN_ALIGNMENT. */

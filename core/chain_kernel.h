@@ -59,6 +59,7 @@ typedef struct {
   StringCoefs change; /**< Per frame */
   double* gain;       /**< CHAIN_FIXED: of a whole number, after the last step; written */
   double fade;        /**< CHAIN_FIXED: what a step makes of the gain */
+  uint32_t* chance;   /**< CHAIN_FIXED: where the dither is; written */
   ChainReader readers[CHAIN_MAX_TAPS];
 } ChainWork;
 

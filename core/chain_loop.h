@@ -55,6 +55,7 @@ INLINE Strand strand_of(const ChainWork* work) {
       .wide = *work->now,
       .now = narrow(*work->now),
       .gain = CHAIN_LOOP_IS_FIXED ? *work->gain : 1.0,
+      .chance = CHAIN_LOOP_IS_FIXED ? *work->chance : 0,
   };
 }
 
@@ -92,6 +93,7 @@ run(const ChainWork* works, uint32_t n_works, uint32_t n_frames, float* const* o
     }
     if (CHAIN_LOOP_IS_FIXED) {
       *works[w].gain = strands[w].gain;
+      *works[w].chance = strands[w].chance;
     }
   }
 }

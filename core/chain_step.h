@@ -1,6 +1,7 @@
 /**
    One step of a string: the part of core/chain_loop.h that is in every loop, and explained there.
 */
+#include "core/chain_dither.h"
 #include "core/chain_kernel.h"
 
 #include <stdbool.h>
@@ -42,6 +43,7 @@ typedef struct {
   StringCoefs wide;
   Coefs now;
   double gain;
+  uint32_t chance;
 } Strand;
 
 enum { MAX_CELLS = CHAIN_MAX_MASSES / CHAIN_LOOP_LANES };
@@ -57,6 +59,13 @@ INLINE RealVector real(Vector v) {
 INLINE Vector number(RealVector v) {
   return CHAIN_LOOP_WHOLE(v);
 }
+
+/* Where the dither of this step begins: anywhere, by a generator of full period. */
+INLINE const RealVector* dither_of(Strand* strand) {
+  enum { PERIOD = CHAIN_DITHER_PERIOD * CHAIN_MAX_LANES / CHAIN_LOOP_LANES };
+  strand->chance = strand->chance * 1664525u + 1013904223u;
+  return (const RealVector*)chain_dither + (strand->chance >> 16) % PERIOD;
+}
 #else
 INLINE RealVector real(Vector v) {
   return v;
@@ -64,6 +73,11 @@ INLINE RealVector real(Vector v) {
 
 INLINE Vector number(RealVector v) {
   return v;
+}
+
+INLINE const RealVector* dither_of(Strand* strand) {
+  (void)strand;
+  return NULL;
 }
 #endif
 
@@ -118,23 +132,29 @@ INLINE void curve(Curve out, const Vector* in, uint32_t stride, const Strand* st
   out[last + 2] = behind(out[1]);
 }
 
+/* What there is to know of the links of one step. */
+typedef struct {
+  const Coefs* c;
+  const Vector* bow;
+  const Vector* flex;
+  const RealVector* dither;
+} Links;
+
 /* Of the link between cell j − 1 and cell j, whose difference of x and u is given. */
-INLINE Vector link_of(Vector dx,
-                      Vector du,
-                      const Vector* bow,
-                      const Vector* flex,
-                      uint32_t j,
-                      const Coefs* c,
-                      Scene scene) {
+INLINE Vector link_of(Vector dx, Vector du, uint32_t j, const Links* links, Scene scene) {
+  const Coefs* const c = links->c;
   RealVector link = c->k1 * real(dx);
+  if (CHAIN_LOOP_IS_FIXED) {
+    link += links->dither[j];
+  }
   if (scene.damping == CHAIN_BETWEEN) {
     link += c->z1 * real(du);
   }
   if (scene.elasticity >= CHAIN_BENDING) {
-    link += c->k2 * real(bow[j + 1] - bow[j]);
+    link += c->k2 * real(links->bow[j + 1] - links->bow[j]);
   }
   if (scene.elasticity >= CHAIN_STRAIGHTENED) {
-    link += c->k3 * real(flex[j + 1] - flex[j]);
+    link += c->k3 * real(links->flex[j + 1] - links->flex[j]);
   }
   return number(link);
 }
@@ -155,7 +175,7 @@ INLINE void move(Cell* cell, Vector x, Vector u, Vector pull, const Coefs* c, Sc
 }
 
 /* One step: each link is computed once and carried. */
-INLINE void step(const Strand* strand, Scene scene) {
+INLINE void step(Strand* strand, Scene scene) {
   Cell* const cells = strand->cells;
   const Coefs* const c = &strand->now;
   const uint32_t last = strand->n_cells - 1;
@@ -167,22 +187,23 @@ INLINE void step(const Strand* strand, Scene scene) {
   if (scene.elasticity >= CHAIN_STRAIGHTENED) {
     curve(flex, bow + 1, 1, strand);
   }
+  const Links links = {c, bow, flex, dither_of(strand)};
   Vector x = cells[0].x;
   Vector u = cells[0].u;
   const Vector x_end = behind(x);
   const Vector u_end = behind(u);
   Vector link_before =
-      link_of(x - before(cells[last].x), u - before(cells[last].u), bow, flex, 0, c, scene);
+      link_of(x - before(cells[last].x), u - before(cells[last].u), 0, &links, scene);
   for (uint32_t j = 0; j < last; ++j) {
     const Vector x_next = cells[j + 1].x;
     const Vector u_next = cells[j + 1].u;
-    const Vector link = link_of(x_next - x, u_next - u, bow, flex, j + 1, c, scene);
+    const Vector link = link_of(x_next - x, u_next - u, j + 1, &links, scene);
     move(&cells[j], x, u, link - link_before, c, scene);
     link_before = link;
     x = x_next;
     u = u_next;
   }
-  const Vector link = link_of(x_end - x, u_end - u, bow, flex, last + 1, c, scene);
+  const Vector link = link_of(x_end - x, u_end - u, last + 1, &links, scene);
   move(&cells[last], x, u, link - link_before, c, scene);
   Cell* const wall = &cells[strand->wall_cell];
   wall->x = hold(wall->x, strand->mask);

@@ -52,13 +52,14 @@ static double largest(StringCoefs c, uint32_t n_masses, ChainSums sums) {
   return fmax(fmax(2.0 * u, y + 0.5 * u), order * slope);
 }
 
-/* In each step each link errs by a part of a number, evenly spread, and by a part of its own last
- * place; over one time constant that adds up in a mode as the steps' square root. */
+/* In each step each link errs by its dither and its rounding, 1/√12 of a number each, and by a part
+ * of its own last place; over one time constant that adds up in a mode as the steps' square root.
+ */
 static double noise_of(const ChainWhole* whole, uint32_t n_masses, ChainSums sums, Pole first) {
   const double length = n_masses + 1.0;
   const double k1 = whole->coefs.k1;
   const double link = k1 * sqrt(sums.yy / length);
-  const double error = 0.29 * hypot(whole->gain, 0x1p-24 * link);
+  const double error = 0.41 * hypot(whole->gain, 0x1p-24 * link);
   const double amplitude = sqrt(2.0 / length * (sums.xx - sums.xu + sums.uu / first.a));
   return error * sqrt(2.0 / (length * first.g * k1)) / amplitude;
 }
