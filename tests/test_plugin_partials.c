@@ -18,8 +18,9 @@ enum { RATE = 48000, BLOCK = 1024, CHANGED = 24 * BLOCK, N_CHANGE = 200 * BLOCK 
 
 enum { N_KINDS = 3, N_PARTIALS = 4 };
 
-/* Where a partial is heard against where the theory has it; what is measured is closer by far. */
-static const double MOST_CENTS = 1e-3;
+/* Where a partial is heard against where the theory has it; what is left is the noise of the
+ * numbers that a string is kept in, and the partial is as strong as a pluck makes it. */
+static const double MOST_CENTS = 0.02;
 
 /* Seconds that a measurement takes, and that a string rings before it. */
 static const double LENGTH_S = 4.0;
@@ -71,12 +72,11 @@ static Host* open_partials(double rate_hz, const Setting* setting, int kind) {
   return host;
 }
 
-/* What the theory says of a string that rings as the ports now are, of n masses. */
-static double wanted_hz(const Host* host, double rate_hz, uint32_t key, int kind, uint32_t k) {
+/* What the theory says of a string that rings as the ports now are. */
+static double wanted_hz(const Host* host, double rate_hz, Tone tone, int kind, uint32_t k) {
   const double stiffness = (double)host_get(host, "stiffness");
-  return heard_hz(strings_tone(host, key, 0.0), rate_hz, (double)host_get(host, "loss"),
-                  stiffness > 1e-6 ? stiffness : 0.0, kind, (uint32_t)host_get(host, "mass_count"),
-                  k);
+  return heard_hz(tone, rate_hz, (double)host_get(host, "loss"), stiffness > 1e-6 ? stiffness : 0.0,
+                  kind, (uint32_t)host_get(host, "mass_count"), k);
 }
 
 /* How far partial k is from where it should be; the next ones may be as close as half of f0. */
@@ -89,18 +89,12 @@ static double error_cents(const float* samples, size_t n, double rate_hz, Tone n
 }
 
 /* The worst error of the partials that are strong enough: the last ones of a chain hardly move. */
-static double check_partials(Host* host,
-                             const Sound* sound,
-                             size_t from,
-                             size_t to,
-                             double rate_hz,
-                             uint32_t key,
-                             int kind) {
-  const Tone tone = strings_tone(host, key, 0.0);
+static double check_partials(
+    Host* host, const Sound* sound, size_t from, size_t to, double rate_hz, Tone tone, int kind) {
   double worst = 0.0;
   for (int i = 0; i < N_PARTIALS; ++i) {
     if (2 * partials[i] <= (uint32_t)host_get(host, "mass_count")) {
-      const Tone near = {wanted_hz(host, rate_hz, key, kind, partials[i]), tone.tau_s};
+      const Tone near = {wanted_hz(host, rate_hz, tone, kind, partials[i]), tone.tau_s};
       worst = fmax(worst, error_cents(sound->left + from, to - from, rate_hz, near, tone.f0_hz));
     }
   }
@@ -124,7 +118,7 @@ static void partials_are_heard_where_they_belong(void** state) {
         strings_note_on(host, 0, settings[s].key, 100);
         strings_run(host, &sound, 0, n_frames, BLOCK);
         worst = fmax(worst, check_partials(host, &sound, n_attack, n_frames, rates_hz[r],
-                                           settings[s].key, kind));
+                                           strings_tone(host, settings[s].key, 0.0), kind));
         sound_free(&sound);
         host_free(host);
       }
@@ -153,12 +147,32 @@ static void what_rings_has_the_new_partials_exactly(void** state) {
     Host* host = NULL;
     Sound sound = play_change(&setting, change / N_KINDS, to, &host);
     const size_t from = CHANGED + 2 * BLOCK;
-    worst = fmax(worst, check_partials(host, &sound, from, N_CHANGE, RATE, setting.key, to));
+    worst = fmax(worst, check_partials(host, &sound, from, N_CHANGE, RATE,
+                                       strings_tone(host, setting.key, 0.0), to));
     assert_true(host_get(host, "headroom") >= 0.0f);
     sound_free(&sound);
     host_free(host);
   }
   assert_within("partials 1, 5, 10 and 20 after a change [cents]", worst, MOST_CENTS);
+}
+
+static void damper_leaves_the_partials_where_they_are(void** state) {
+  static const Setting setting = {33, 40.0, 1e-5};
+  (void)state;
+  double worst = 0.0;
+  for (int kind = 0; kind < N_KINDS; ++kind) {
+    Sound sound = sound_new(N_CHANGE);
+    Host* const host = open_partials(RATE, &setting, kind);
+    strings_set(host, "release", 6.0);
+    strings_note_on(host, 0, setting.key, 100);
+    strings_note_off(host, CHANGED, setting.key);
+    strings_run(host, &sound, 0, N_CHANGE, BLOCK);
+    const Tone tone = strings_released_tone(host, setting.key, 0.0);
+    worst = fmax(worst, check_partials(host, &sound, CHANGED + BLOCK, N_CHANGE, RATE, tone, kind));
+    sound_free(&sound);
+    host_free(host);
+  }
+  assert_within("partials 1, 5, 10 and 20 once the key is up [cents]", worst, MOST_CENTS);
 }
 
 /* Heard where it is strong. */
@@ -256,8 +270,8 @@ static void bends_and_changes_at_once_leave_it_in_tune(void** state) {
     }
     strings_run(host, &sound, 2 * CHANGED, N_CHANGE, BLOCK);
     const size_t from = 2 * CHANGED + BLOCK;
-    const double worst =
-        check_partials(host, &sound, from, N_CHANGE, RATE, setting.key, PARTIALS_TRUEST);
+    const double worst = check_partials(host, &sound, from, N_CHANGE, RATE,
+                                        strings_tone(host, setting.key, 0.0), PARTIALS_TRUEST);
     assert_within("partials 1, 5, 10 and 20 [cents]", worst, MOST_CENTS);
     loudest[is_moving] = measure_peak(sound.left, N_CHANGE);
     sound_free(&sound);
@@ -270,6 +284,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(partials_are_heard_where_they_belong),
       cmocka_unit_test(what_rings_has_the_new_partials_exactly),
+      cmocka_unit_test(damper_leaves_the_partials_where_they_are),
       cmocka_unit_test(fundamental_and_its_decay_stay_exact),
       cmocka_unit_test(changing_partials_does_not_click),
       cmocka_unit_test(bends_and_changes_at_once_leave_it_in_tune),

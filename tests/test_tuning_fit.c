@@ -224,6 +224,8 @@ static void true_partials_cost_none_of_the_reach(void** state) {
     uint32_t n_masses = 0;
     TuningTarget target = random_note(&random, &n_masses);
     target.tone.f0_hz = fmin(target.tone.f0_hz * exp2(random_between(&random, 0.0, 1.5)), 23e3);
+    /* Down to a few samples, where damping alone carries the string past its limit. */
+    target.tone.tau_s = trial % 2 ? random_log_between(&random, 5e-5, 3e-3) : target.tone.tau_s;
     target.partials = PARTIALS_LUMPED;
     StringCoefs coefs = {0};
     const Status lumped = tuning_fit(&target, n_masses, &coefs);
