@@ -106,37 +106,68 @@ INLINE double sum_of(RealVector v) {
   return sum;
 }
 
-/* Half a step back, where x and u are of the same time. */
-INLINE RealVector half_back(const Cell* cell) {
-  return real(cell->x) - (Real)0.5 * real(cell->u);
+/* A field over the string, from [1] on, and what lies before and behind. */
+typedef RealVector Field[MAX_CELLS + 2];
+
+INLINE void close_field(Field field, uint32_t n_cells) {
+  const RealVector wall = {0};
+  field[0] = __builtin_shufflevector(field[n_cells], wall, CHAIN_LOOP_BEFORE);
+  field[n_cells + 1] = __builtin_shufflevector(field[1], wall, CHAIN_LOOP_BEHIND);
+}
+
+INLINE void bend(Field out, const Field in, uint32_t n_cells) {
+  for (uint32_t j = 1; j <= n_cells; ++j) {
+    out[j] = (in[j] - in[j - 1]) - (in[j + 1] - in[j]);
+  }
+  close_field(out, n_cells);
+}
+
+/* Σ (Δ field)², with the link from the last lane to the wall. */
+INLINE double sum_of_slopes(const Field field, uint32_t n_cells) {
+  RealVector sum = {0};
+  for (uint32_t j = 1; j <= n_cells; ++j) {
+    const RealVector slope = field[j] - field[j - 1];
+    sum += slope * slope;
+  }
+  const double end = (double)field[n_cells][CHAIN_LOOP_LANES - 1];
+  return sum_of(sum) + end * end;
+}
+
+INLINE double sum_of_squares(const Field field, uint32_t n_cells) {
+  RealVector sum = {0};
+  for (uint32_t j = 1; j <= n_cells; ++j) {
+    sum += field[j] * field[j];
+  }
+  return sum_of(sum);
 }
 
 static ChainSums sum(const void* memory, uint32_t n_cells) {
   const Cell* const cells = memory;
-  const Cell* const last = &cells[n_cells - 1];
-  const Cell end = {before(last->x), before(last->u)};
+  Field y; /* Half a step back, where x and u are of the same time */
+  Field u;
+  Field bow;
   RealVector xx = {0};
   RealVector xu = {0};
-  RealVector uu = {0};
-  RealVector yy = {0};
-  RealVector y_before = half_back(&end);
   for (uint32_t j = 0; j < n_cells; ++j) {
     const RealVector x = real(cells[j].x);
-    const RealVector u = real(cells[j].u);
-    const RealVector y = half_back(&cells[j]);
+    u[j + 1] = real(cells[j].u);
+    y[j + 1] = x - (Real)0.5 * u[j + 1];
     xx += x * x;
-    xu += x * u;
-    uu += u * u;
-    yy += (y - y_before) * (y - y_before);
-    y_before = y;
+    xu += x * u[j + 1];
   }
-  const Real y_last = y_before[CHAIN_LOOP_LANES - 1];
-  return (ChainSums){
+  close_field(y, n_cells);
+  close_field(u, n_cells);
+  ChainSums sums = {
       .xx = sum_of(xx),
       .xu = sum_of(xu),
-      .uu = sum_of(uu),
-      .yy = sum_of(yy) + (double)(y_last * y_last),
+      .uu = sum_of_squares(u, n_cells),
+      .slope = sum_of_slopes(y, n_cells),
   };
+  bend(bow, u, n_cells);
+  sums.bow = sum_of_squares(bow, n_cells);
+  bend(bow, y, n_cells);
+  sums.twist = sum_of_slopes(bow, n_cells);
+  return sums;
 }
 
 #if CHAIN_LOOP_IS_FIXED

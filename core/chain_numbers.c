@@ -9,8 +9,10 @@
 /* Damping g of the fundamental below which floats lose count: a time constant of 20,000 steps. */
 static const double WEAK_DAMPING = 1e-4;
 
-/* Noise up to which a string is kept in whole numbers, relative to the motion. */
-static const double QUIET = 1.5e-5;
+/* Noise up to which a string is put into whole numbers, relative to the motion, and up to which it
+ * is then left there. */
+static const double QUIET = 7e-7;
+static const double QUIET_ENOUGH = 1e-6;
 
 /* How much too large or too small the numbers may be before they are scaled anew. */
 static const double TOO_SMALL = 4.0;
@@ -88,7 +90,7 @@ ChainSums chain_numbers_sum(const Chain* chain) {
   if (chain->numbers != CHAIN_FIXED) {
     return sums;
   }
-  /* u = gain (U/ρ + (1 − 1/ρ) X); for y the difference is too small to count. */
+  /* u = gain (U/ρ + (1 − 1/ρ) X); in the last three the difference is too small to count. */
   const double square = chain->gain * chain->gain;
   const double of_u = 1.0 / chain->fade;
   const double of_x = 1.0 - of_u;
@@ -96,7 +98,9 @@ ChainSums chain_numbers_sum(const Chain* chain) {
       .xx = square * sums.xx,
       .xu = square * (of_u * sums.xu + of_x * sums.xx),
       .uu = square * (of_u * (of_u * sums.uu + 2.0 * of_x * sums.xu) + of_x * of_x * sums.xx),
-      .yy = square * sums.yy,
+      .slope = square * sums.slope,
+      .bow = square * sums.bow,
+      .twist = square * sums.twist,
   };
 }
 
@@ -150,6 +154,7 @@ bool chain_hold(Chain* chain, ChainNumbers numbers) {
 }
 
 void chain_settle(Chain* chain) {
+  const double quiet = chain->numbers == CHAIN_FIXED ? QUIET_ENOUGH : QUIET;
   ChainWhole whole;
   if (chain->n_gliding > 0) {
     return;
@@ -157,7 +162,7 @@ void chain_settle(Chain* chain) {
   if (tuning_mode(chain->now, chain->n_masses, 1).g >= WEAK_DAMPING) {
     chain_hold(chain, CHAIN_FLOAT);
   } else if (!chain_whole_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &whole) ||
-             !(whole.noise <= QUIET)) {
+             !(whole.noise <= quiet)) {
     chain_hold(chain, CHAIN_DOUBLE);
   } else if (chain->numbers != CHAIN_FIXED || chain->gain > TOO_SMALL * whole.gain ||
              chain->gain < TOO_LARGE * whole.gain) {

@@ -64,7 +64,7 @@ INLINE Vector number(RealVector v) {
 INLINE const RealVector* dither_of(Strand* strand) {
   enum { PERIOD = CHAIN_DITHER_PERIOD * CHAIN_MAX_LANES / CHAIN_LOOP_LANES };
   strand->chance = strand->chance * 1664525u + 1013904223u;
-  return (const RealVector*)chain_dither + (strand->chance >> 16) % PERIOD;
+  return (const RealVector*)chain_dither + (strand->chance >> 8) / ((1u << 24) / PERIOD);
 }
 #else
 INLINE RealVector real(Vector v) {
@@ -140,23 +140,21 @@ typedef struct {
   const RealVector* dither;
 } Links;
 
-/* Of the link between cell j − 1 and cell j, whose difference of x and u is given. */
+/* Of the link between cell j − 1 and cell j, whose difference of x and u is given.  The largest
+   comes last, so that the small are not lost in its last place. */
 INLINE Vector link_of(Vector dx, Vector du, uint32_t j, const Links* links, Scene scene) {
   const Coefs* const c = links->c;
-  RealVector link = c->k1 * real(dx);
-  if (CHAIN_LOOP_IS_FIXED) {
-    link += links->dither[j];
-  }
+  RealVector link = CHAIN_LOOP_IS_FIXED ? links->dither[j] : (RealVector){0};
   if (scene.damping == CHAIN_BETWEEN) {
     link += c->z1 * real(du);
-  }
-  if (scene.elasticity >= CHAIN_BENDING) {
-    link += c->k2 * real(links->bow[j + 1] - links->bow[j]);
   }
   if (scene.elasticity >= CHAIN_STRAIGHTENED) {
     link += c->k3 * real(links->flex[j + 1] - links->flex[j]);
   }
-  return number(link);
+  if (scene.elasticity >= CHAIN_BENDING) {
+    link += c->k2 * real(links->bow[j + 1] - links->bow[j]);
+  }
+  return number(link + c->k1 * real(dx));
 }
 
 /* Velocity first, then position with the new velocity. */

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* What no number may pass; half of what it can hold, for a glance at x instead of X, and for noise.
- */
+/* What no number may pass: half of what it can hold, for a pull may be twice as large as the
+ * largest velocity. */
 static const double FULL = 0x1p30;
 
 /* (z0/2)² in units of a1 up to which what is left of the air shifts no partial by 0.01 cent. */
@@ -14,6 +14,11 @@ static const double LEAST_PULL = 0.1;
 
 static double positive(double value) {
   return fmax(value, 0.0);
+}
+
+/* The least that k1 + k2 λ + k3 λ² can be. */
+static double least_pull(StringCoefs c) {
+  return c.k1 - 4.0 * positive(-c.k2) - 16.0 * positive(-c.k3);
 }
 
 static StringCoefs without_air(StringCoefs coefs, uint32_t n_masses, double fade) {
@@ -32,24 +37,37 @@ static StringCoefs without_air(StringCoefs coefs, uint32_t n_masses, double fade
 }
 
 /*
-  The largest that any number can become, by the scheme's energy, with y = x − u/2,
+  The largest that any number can become.  With y = x − u/2 the scheme's energy is
 
-      2E = yᵀ K y + uᵀ (1 − K/4) u.
+      2E = yᵀ K y + uᵀ (1 − K/4) u,
 
-  So |u|² ≤ 2E/headroom, and every |Δy| ≤ √(2E/k), k being the least pull, and since (L⁻¹)_ii ≤
-  (N + 1)/4 every y² ≤ 2E (N + 1)/(4k).  Differences of a higher order are at most twice those
-  before.
+  and so is that of L y and L u, which each mode has λ² times as much of.  A mode loses of either
+  what the other does, so neither ever grows.  Then, k being the least pull,
+
+      (Δy)² ≤ 2E/k  everywhere, and since (L⁻¹)_ii ≤ (N + 1)/4,  y² ≤ 2E (N + 1)/(4k).
+
+  |u|² ≤ 2E/headroom would do, but near the limit there is little headroom, and that only in modes
+  which have little of the energy: above λ = 2 there is at most a quarter of L u's.
 */
 static double largest(StringCoefs c, uint32_t n_masses, ChainSums sums) {
+  const double middle = 2.0;
   const double stiffest = c.k1 + 4.0 * positive(c.k2) + 16.0 * positive(c.k3);
-  const double least = c.k1 - 4.0 * positive(-c.k2) - 16.0 * positive(-c.k3);
+  const double least = least_pull(c);
+  const double energy = stiffest * sums.slope + sums.uu;
+  const double energy_of_bow = stiffest * sums.twist + sums.bow;
   const double headroom = tuning_headroom(c, n_masses);
-  const double energy2 = stiffest * sums.yy + sums.uu;
-  const double u = sqrt(energy2 / headroom);
-  const double y = sqrt(energy2 * (n_masses + 1.0) / (4.0 * least));
-  const double slope = sqrt(energy2 / least) + u;
-  const double order = c.k3 != 0.0 ? 16.0 : c.k2 != 0.0 ? 4.0 : 1.0;
-  return fmax(fmax(2.0 * u, y + 0.5 * u), order * slope);
+  const double headroom_below = 1.0 - 0.25 * middle * stiffest;
+  const double above = fmin(energy, energy_of_bow / (middle * middle));
+  const double u_split = sqrt(energy / positive(headroom_below)) + sqrt(above / headroom);
+  const double u = fmin(sqrt(energy / headroom), u_split);
+  const double y = sqrt(energy * (n_masses + 1.0) / (4.0 * least));
+  const double slope = sqrt(energy / least) + u;
+  const double twist = sqrt(energy_of_bow / least) + sqrt(energy_of_bow / headroom);
+  double most = fmax(y + 0.5 * u, slope + u);
+  if (c.k2 != 0.0 || c.k3 != 0.0) {
+    most = fmax(most, fmin(twist, 4.0 * slope));
+  }
+  return c.k3 != 0.0 ? fmax(most, 4.0 * fmin(twist, 4.0 * slope)) : most;
 }
 
 /* In each step each link errs by its dither and its rounding, 1/√12 of a number each, and by a part
@@ -58,7 +76,7 @@ static double largest(StringCoefs c, uint32_t n_masses, ChainSums sums) {
 static double noise_of(const ChainWhole* whole, uint32_t n_masses, ChainSums sums, Pole first) {
   const double length = n_masses + 1.0;
   const double k1 = whole->coefs.k1;
-  const double link = k1 * sqrt(sums.yy / length);
+  const double link = k1 * sqrt(sums.slope / length);
   const double error = 0.41 * hypot(whole->gain, 0x1p-24 * link);
   const double amplitude = sqrt(2.0 / length * (sums.xx - sums.xu + sums.uu / first.a));
   return error * sqrt(2.0 / (length * first.g * k1)) / amplitude;
@@ -74,11 +92,10 @@ bool chain_whole_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, Ch
   ChainWhole design = {.coefs = without_air(coefs, n_masses, fade), .fade = fade};
   const StringCoefs* const c = &design.coefs;
   const double size = largest(*c, n_masses, sums);
-  if (!(c->k1 - 4.0 * positive(-c->k2) - 16.0 * positive(-c->k3) > LEAST_PULL * c->k1) ||
-      !isfinite(size) || !(size > 0.0)) {
+  if (!(least_pull(*c) > LEAST_PULL * c->k1) || !isfinite(size) || !(size > 0.0)) {
     return false;
   }
-  design.gain = size / (0.5 * FULL);
+  design.gain = size / FULL;
   design.noise = noise_of(&design, n_masses, sums, first);
   *whole = design;
   return true;
