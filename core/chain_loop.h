@@ -116,9 +116,10 @@ INLINE void close_field(Field field, uint32_t n_cells) {
 }
 
 INLINE void bend(Field out, const Field in, uint32_t n_cells) {
-  for (uint32_t j = 1; j <= n_cells; ++j) {
+  uint32_t j = 1;
+  do {
     out[j] = (in[j] - in[j - 1]) - (in[j + 1] - in[j]);
-  }
+  } while (++j <= n_cells);
   close_field(out, n_cells);
 }
 
