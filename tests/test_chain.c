@@ -36,8 +36,8 @@ static void run_silently(Chain* chain, uint32_t n_frames) {
   chain_run(chain, n_frames, &no_tap, 1, out);
 }
 
-/* Undamped, and damped so little that a string is stepped in doubles; so much that it is in floats.
- */
+/* Undamped and weakly damped strings are stepped in doubles here, and strongly damped ones in
+ * floats. */
 typedef enum { UNDAMPED, WEAKLY, STRONGLY, N_DAMPINGS } Damping;
 
 /* A string near its limit with all that a string can have, or without some of it. */
@@ -53,13 +53,24 @@ static StringCoefs coefs_of(bool is_bending, Damping damping) {
 }
 
 static bool is_float(const Chain* chain) {
-  return chain->loops == chain->kernel->in_float;
+  return chain->numbers == CHAIN_FLOAT;
+}
+
+/* A chain in the numbers that its damping has here. */
+static void make_chain(Chain* chain, uint32_t kernel, uint32_t n_masses, Damping damping) {
+  chain_init(chain, chain_kernel(kernel), memory, n_masses);
+  assert_true(chain_hold(chain, damping == STRONGLY ? CHAIN_FLOAT : CHAIN_DOUBLE));
 }
 
 /* The coefficients as the loop has them. */
 static StringCoefs seen_by(const Chain* chain, StringCoefs coefs) {
-  const StringCoefs rounded = {(double)(float)coefs.k1, (double)(float)coefs.k2,
-                               (double)(float)coefs.z0, (double)(float)coefs.z1};
+  const StringCoefs rounded = {
+      .k1 = (double)(float)coefs.k1,
+      .k2 = (double)(float)coefs.k2,
+      .k3 = (double)(float)coefs.k3,
+      .z0 = (double)(float)coefs.z0,
+      .z1 = (double)(float)coefs.z1,
+  };
   return is_float(chain) ? rounded : coefs;
 }
 
@@ -108,7 +119,7 @@ static void every_layout_is_the_same_string(void** state) {
     for (uint32_t size = 0; size < N_SIZES; ++size) {
       for (int scene = 0; scene < 2 * N_DAMPINGS; ++scene) {
         Chain chain;
-        chain_init(&chain, chain_kernel(kernel), memory, size_of(size));
+        make_chain(&chain, kernel, size_of(size), (Damping)(scene / 2));
         const StringCoefs coefs = coefs_of(scene % 2, (Damping)(scene / 2));
         const double distance = distance_from_oracle(&chain, coefs, STEPS, &random);
         assert_int_equal(is_float(&chain), scene / 2 == STRONGLY);
@@ -125,10 +136,11 @@ static void every_layout_is_the_same_string(void** state) {
 /* A glide's coefficients move by the same amount in every step, the last one's being the goal's. */
 static StringCoefs on_the_way(StringCoefs from, StringCoefs to, double share) {
   return (StringCoefs){
-      from.k1 + share * (to.k1 - from.k1),
-      from.k2 + share * (to.k2 - from.k2),
-      from.z0 + share * (to.z0 - from.z0),
-      from.z1 + share * (to.z1 - from.z1),
+      .k1 = from.k1 + share * (to.k1 - from.k1),
+      .k2 = from.k2 + share * (to.k2 - from.k2),
+      .k3 = from.k3 + share * (to.k3 - from.k3),
+      .z0 = from.z0 + share * (to.z0 - from.z0),
+      .z1 = from.z1 + share * (to.z1 - from.z1),
   };
 }
 
@@ -150,6 +162,7 @@ static void every_glide_is_the_same_string(void** state) {
       place_noise(&chain, &random, x, u);
       for (int turn = 0; turn < TURNS; ++turn) {
         const StringCoefs to = coefs_of(turn % 3 == 1, (Damping)(turn % N_DAMPINGS));
+        assert_true(chain_hold(&chain, turn % 2 ? CHAIN_DOUBLE : CHAIN_FLOAT));
         chain_glide(&chain, to, STEPS);
         run_silently(&chain, STEPS);
         for (int n = 1; n <= STEPS; ++n) {
@@ -232,7 +245,7 @@ static void check_energy(const char* what, bool is_bending, Damping damping, dou
   for (uint32_t kernel = 0; chain_kernel(kernel); ++kernel) {
     for (uint32_t n_masses = 1; n_masses <= MOST_DENSE; n_masses += n_masses < 20 ? 1 : 11) {
       Chain chain;
-      chain_init(&chain, chain_kernel(kernel), memory, n_masses);
+      make_chain(&chain, kernel, n_masses, damping);
       worst = fmax(worst, energy_drift(&chain, coefs_of(is_bending, damping), 2000, &random));
     }
   }

@@ -24,7 +24,7 @@ static const double LEAST_SNR_DB = 98.0;
 /* Doubles are read as floats: 24 bits, of which a quiet sample among loud ones has all. */
 static const double LEAST_DOUBLE_SNR_DB = 145.0;
 
-/* τ from which a string is stepped in doubles, where g = 1 − exp(−2/n) is 1e-4 [steps]. */
+/* τ up to which a string stays in floats, where g = 1 − exp(−2/n) is 1e-4 [steps]. */
 static const double LONGEST_IN_FLOAT = 20000.0;
 
 static _Alignas(CHAIN_ALIGNMENT) char memory[32 * CHAIN_MAX_MASSES];
@@ -102,11 +102,16 @@ static double snr_db(Chain* chain, StringCoefs coefs, double seconds, double rat
 }
 
 static StringCoefs rounded(StringCoefs coefs) {
-  return (StringCoefs){(double)(float)coefs.k1, (double)(float)coefs.k2, (double)(float)coefs.z0,
-                       (double)(float)coefs.z1};
+  return (StringCoefs){
+      .k1 = (double)(float)coefs.k1,
+      .k2 = (double)(float)coefs.k2,
+      .k3 = (double)(float)coefs.k3,
+      .z0 = (double)(float)coefs.z0,
+      .z1 = (double)(float)coefs.z1,
+  };
 }
 
-/* A string, and whether it is to be stepped in doubles. */
+/* A string. */
 typedef struct {
   const char* what;
   double rate_hz;
@@ -127,11 +132,11 @@ static double case_snr_db(const ChainKernel* kernel, const Case* a_case, double 
   StringCoefs coefs = {0};
   Chain chain;
   assert_int_equal(tuning_solve(&target, n_masses, &coefs), STATUS_OK);
+  const bool is_float = n_steps < LONGEST_IN_FLOAT;
   chain_init(&chain, kernel, memory, n_masses);
+  assert_true(chain_hold(&chain, is_float ? CHAIN_FLOAT : CHAIN_DOUBLE));
   chain_set(&chain, coefs);
   pull_aside(&chain);
-  const bool is_float = chain.loops == kernel->in_float;
-  assert_int_equal(is_float, n_steps < LONGEST_IN_FLOAT);
   return snr_db(&chain, is_float ? rounded(coefs) : coefs, fmin(4.0, 8.0 * target.tone.tau_s),
                 target.rate_hz);
 }
@@ -174,6 +179,7 @@ static void rounding_the_coefficients_is_not_heard(void** state) {
         .tone = {random_log_between(&random, 8.0, 12600.0), random_log_between(&random, 0.01, 0.4)},
         .loss = random_between(&random, 0.0, 1.0),
         .inharmonicity = random_log_between(&random, 1e-6, 1e-2),
+        .partials = (Partials)random_below(&random, 3),
     };
     const uint32_t n_masses = tuning_max_masses(&target, 1024);
     StringCoefs coefs = {0};
@@ -217,6 +223,7 @@ static void glide_between_stable_strings_stays_bounded(void** state) {
     assert_int_equal(tuning_solve(&targets[1], n_masses, &coefs[1]), STATUS_OK);
     Chain chain;
     chain_init(&chain, chain_kernel(0), memory, n_masses);
+    assert_true(chain_hold(&chain, trial % 2 ? CHAIN_FLOAT : CHAIN_DOUBLE));
     chain_set(&chain, coefs[0]);
     pull_aside(&chain);
     for (int turn = 0; turn < 10; ++turn) {
@@ -251,6 +258,7 @@ static void amplitude_is_the_fundamentals(void** state) {
     assert_int_equal(tuning_solve(&target, n, &coefs), STATUS_OK);
     Chain chain;
     chain_init(&chain, chain_kernel(0), memory, n);
+    assert_true(chain_hold(&chain, CHAIN_DOUBLE));
     chain_set(&chain, coefs);
     for (uint32_t i = 0; i < n; ++i) {
       chain_place(&chain, i, (float)(0.7 * sin(PI * (i + 1.0) / (n + 1.0))), 0.0f);
@@ -274,6 +282,7 @@ static void rest_is_rest(void** state) {
   for (size_t s = 0; s < 2; ++s) {
     Chain chain;
     chain_init(&chain, chain_kernel(0), memory, 100);
+    assert_true(chain_hold(&chain, s == 0 ? CHAIN_DOUBLE : CHAIN_FLOAT));
     chain_set(&chain, settings[s]);
     pull_aside(&chain);
     run_silently(&chain, 100);
