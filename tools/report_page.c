@@ -1,11 +1,10 @@
 #include "tools/report_page.h"
 
 #include "tools/figure.h"
+#include "tools/report_html.h"
 #include "tools/report_pins.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 static const char TITLE[] = "The figures and numbers of Morgan and Qiao (2009), computed anew";
 
@@ -79,29 +78,11 @@ void report_page_markdown(FILE* out) {
   }
 }
 
-/* Text as HTML has it, in attributes too. */
-static void write_text(FILE* out, const char* text) {
-  for (; *text; ++text) {
-    const char* const special = strchr("&<>\"", *text);
-    if (special) {
-      (void)fprintf(out, "&#%d;", *special);
-    } else {
-      (void)fputc(*text, out);
-    }
-  }
-}
-
-static void write_element(FILE* out, const char* open, const char* text, const char* close) {
-  (void)fputs(open, out);
-  write_text(out, text);
-  (void)fputs(close, out);
-}
-
 static void write_html_row(FILE* out, const ReportPin* pin) {
-  write_element(out, "<tr><td>", pin->where, "</td>");
-  write_element(out, "<td>", pin->quantity, "</td>");
-  write_element(out, "<td>", pin->unit, "</td>");
-  write_element(out, "<td class=\"n\">", pin->paper, "</td><td class=\"n\">");
+  report_html_element(out, "<tr><td>", pin->where, "</td>");
+  report_html_element(out, "<td>", pin->quantity, "</td>");
+  report_html_element(out, "<td>", pin->unit, "</td>");
+  report_html_element(out, "<td class=\"n\">", pin->paper, "</td><td class=\"n\">");
   write_ours(out, pin);
   const double difference = report_pin_difference(pin);
   const bool agrees = fabs(difference) < report_pin_precision(pin);
@@ -113,7 +94,7 @@ static void write_numbers(FILE* out) {
   unsigned n_pins = 0;
   const ReportPin* const pins = report_pins(&n_pins);
   (void)fputs("<h2>Numbers</h2>\n", out);
-  write_element(out, "<p>", NUMBERS, "</p>\n");
+  report_html_element(out, "<p>", NUMBERS, "</p>\n");
   (void)fputs("<div class=\"wide\"><table>\n<tr><th>figure</th><th>quantity</th><th>unit</th>"
               "<th class=\"n\">paper</th><th class=\"n\">ours</th><th class=\"n\">difference</th>"
               "<th>agree</th></tr>\n",
@@ -124,43 +105,16 @@ static void write_numbers(FILE* out) {
   (void)fputs("</table></div>\n", out);
 }
 
-static void write_base64(FILE* out, const unsigned char* bytes, size_t n_bytes) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  for (size_t i = 0; i < n_bytes; i += 3) {
-    const size_t left = n_bytes - i;
-    const unsigned word = (unsigned)bytes[i] << 16 | (left > 1 ? (unsigned)bytes[i + 1] << 8 : 0U) |
-                          (left > 2 ? bytes[i + 2] : 0U);
-    (void)fputc(digits[word >> 18], out);
-    (void)fputc(digits[word >> 12 & 63], out);
-    (void)fputc(left > 1 ? digits[word >> 6 & 63] : '=', out);
-    (void)fputc(left > 2 ? digits[word & 63] : '=', out);
-  }
-}
-
-static bool write_picture(FILE* out, const ReportPlace* place, const Figure* figure) {
-  char name[REPORT_NAME_SIZE];
-  size_t n_bytes = 0;
-  report_page_name(name, figure->number, "svg");
-  char* const picture = report_place_read(place, name, &n_bytes);
-  if (!picture) {
-    return false;
-  }
-  write_element(out, "<img width=\"760\" height=\"400\" alt=\"", figure->shows, "\" src=\"");
-  (void)fputs("data:image/svg+xml;base64,", out);
-  write_base64(out, (const unsigned char*)picture, n_bytes);
-  (void)fputs("\">\n", out);
-  free(picture);
-  return true;
-}
-
 static bool write_figure(FILE* out, const ReportPlace* place, const Figure* figure) {
+  char name[REPORT_NAME_SIZE];
   (void)fprintf(out, "<h2 id=\"figure-%02u\">Figure %u: ", figure->number, figure->number);
-  write_element(out, "", figure->title, "</h2>\n<figure>\n");
-  const bool is_written = write_picture(out, place, figure);
-  write_element(out, "<figcaption><p>", figure->shows, "</p>\n");
-  write_element(out, "<dl><dt>Computed by</dt><dd>", figure->equation, "</dd>\n");
-  write_element(out, "<dt>The paper's figure</dt><dd>", figure->source,
-                "</dd></dl></figcaption>\n");
+  report_html_element(out, "", figure->title, "</h2>\n<figure>\n");
+  report_page_name(name, figure->number, "svg");
+  const bool is_written = report_html_picture(out, place, name, figure->shows);
+  report_html_element(out, "<figcaption><p>", figure->shows, "</p>\n");
+  report_html_element(out, "<dl><dt>Computed by</dt><dd>", figure->equation, "</dd>\n");
+  report_html_element(out, "<dt>The paper's figure</dt><dd>", figure->source,
+                      "</dd></dl></figcaption>\n");
   (void)fputs("</figure>\n", out);
   return is_written;
 }
@@ -170,10 +124,10 @@ bool report_page_html(FILE* out, const ReportPlace* place) {
   (void)fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
               "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
               out);
-  write_element(out, "<title>", TITLE, "</title>\n");
+  report_html_element(out, "<title>", TITLE, "</title>\n");
   (void)fprintf(out, "<style>%s</style>\n</head>\n<body>\n", style);
-  write_element(out, "<h1>", TITLE, "</h1>\n");
-  write_element(out, "<p>", INTRODUCTION, "</p>\n");
+  report_html_element(out, "<h1>", TITLE, "</h1>\n");
+  report_html_element(out, "<p>", INTRODUCTION, "</p>\n");
   write_numbers(out);
   for (unsigned i = 0; is_written && i < FIGURE_COUNT; ++i) {
     is_written = write_figure(out, place, figure_at(i));
