@@ -1,6 +1,6 @@
 #include "core/chain.h"
 
-#include "tests/oracle.h"
+#include "tests/chains.h"
 #include "tests/random.h"
 
 #include <math.h>
@@ -13,40 +13,61 @@
 
 #include <cmocka.h>
 
-enum { FRAMES = 2000, MOST_BYTES = 32 * CHAIN_MAX_MASSES, N_SIZES = 9 };
+enum { FRAMES = 2000, N_SIZES = 9 };
 
 static const uint32_t sizes[N_SIZES] = {1, 2, 3, 7, 8, 9, 50, 129, 1024};
 static const char CANARY = 0x5A;
 
-static _Alignas(CHAIN_ALIGNMENT) char memory[2 * MOST_BYTES];
+static _Alignas(CHAIN_ALIGNMENT) char memory[2 * CHAINS_MOST_BYTES];
 
 /* What a run leaves behind. */
 typedef struct {
   float out[CHAIN_MAX_TAPS][FRAMES];
-  char memory[MOST_BYTES];
+  char memory[CHAINS_MOST_BYTES];
   StringCoefs now;
+  double gain;
+  uint32_t chance;
   uint32_t n_gliding;
 } Trace;
 
 static const StringCoefs flexible = {.k1 = 0.8, .z0 = 1e-3, .z1 = 2e-3};
-static const StringCoefs bending = {.k1 = 0.2, .k2 = 0.15, .z0 = 2e-5, .z1 = 1e-5};
-
-static void place_noise(Chain* chain, Random* random) {
-  for (uint32_t i = 0; i < chain->n_masses; ++i) {
-    chain_place(chain, i, (float)random_between(random, -1.0, 1.0),
-                (float)random_between(random, -1.0, 1.0));
-  }
-}
+static const StringCoefs bending = {.k1 = 0.2, .k2 = 0.15, .z0 = 2e-6, .z1 = 1e-5};
+static const StringCoefs straightened = {.k1 = 0.3, .k2 = 0.07, .k3 = 0.02, .z0 = 1e-6};
 
 /* Frames of the next call: a fixed number, or at random where it is 0. */
 static uint32_t next_cut(uint32_t cut, Random* random) {
   return cut > 0 ? cut : 1 + random_below(random, 100);
 }
 
-/* A string with a glide into bending, one that is overtaken, and one back, all in one run. */
+/* What is done to a string in a run: in these numbers, and glide from here on. */
+typedef struct {
+  uint32_t start;
+  ChainNumbers numbers;
+  const StringCoefs* goal; /* NULL: it stands still */
+  uint32_t n_glide;
+} Turn;
+
+/* Glides into bending, one that is overtaken, and one into all there is; and whole numbers, into
+ * which a glide breaks as well. */
+static const Turn turns[] = {
+    {0, CHAIN_FLOAT, NULL, 0},          {301, CHAIN_DOUBLE, &bending, 400},
+    {500, CHAIN_FLOAT, &flexible, 257}, {850, CHAIN_DOUBLE, &bending, 150},
+    {1033, CHAIN_FIXED, NULL, 0},       {1250, CHAIN_FIXED, &straightened, 257},
+    {1600, CHAIN_FIXED, NULL, 0},       {FRAMES, CHAIN_FLOAT, NULL, 0},
+};
+
+enum { N_TURNS = sizeof(turns) / sizeof(turns[0]) - 1 };
+
+static void do_turn(Chain* chain, const Turn* turn) {
+  assert_true(chain_hold(chain, turn->numbers));
+  assert_int_equal(chain->numbers, turn->numbers);
+  if (turn->goal) {
+    chain_glide(chain, *turn->goal, turn->n_glide);
+  }
+}
+
 static void
 trace(Trace* trace, const ChainKernel* kernel, uint32_t n, uint32_t n_taps, uint32_t cut) {
-  static const uint32_t turns[] = {0, 301, 500, 1033, FRAMES};
   const ChainTap taps[] = {{{0, n - 1}, {0.25f, 0.5f}},
                            {{n / 2, n / 2}, {1.0f, 0.0f}},
                            {{n - 1, 0}, {-1.0f, 0.5f}},
@@ -58,14 +79,11 @@ trace(Trace* trace, const ChainKernel* kernel, uint32_t n, uint32_t n_taps, uint
   memset(memory, 0, sizeof(memory));
   chain_init(&chain, kernel, memory, n);
   chain_set(&chain, flexible);
-  place_noise(&chain, &random);
-  for (size_t turn = 0; turn < 4; ++turn) {
-    if (turn > 0) {
-      assert_true(chain_hold(&chain, turn % 2 ? CHAIN_DOUBLE : CHAIN_FLOAT));
-      chain_glide(&chain, turn % 2 ? bending : flexible, turn == 1 ? 400 : 257);
-    }
-    for (uint32_t done = turns[turn]; done < turns[turn + 1];) {
-      const uint32_t left = turns[turn + 1] - done;
+  chains_place_noise(&chain, &random);
+  for (size_t turn = 0; turn < N_TURNS; ++turn) {
+    do_turn(&chain, &turns[turn]);
+    for (uint32_t done = turns[turn].start; done < turns[turn + 1].start;) {
+      const uint32_t left = turns[turn + 1].start - done;
       const uint32_t wanted = next_cut(cut, &cuts);
       const uint32_t now = wanted < left ? wanted : left;
       float* const out[] = {trace->out[0] + done, trace->out[1] + done, trace->out[2] + done,
@@ -76,6 +94,8 @@ trace(Trace* trace, const ChainKernel* kernel, uint32_t n, uint32_t n_taps, uint
   }
   memcpy(trace->memory, memory, chain_size(n));
   trace->now = chain.now;
+  trace->gain = chain.gain;
+  trace->chance = chain.chance;
   trace->n_gliding = chain.n_gliding;
 }
 
@@ -122,51 +142,51 @@ static void glide_ends_exactly_on_its_goal(void** state) {
   }
 }
 
-static size_t n_numbers(const Chain* chain) {
-  return (size_t)chain->n_cells * 2 * chain->loops->n_lanes;
-}
-
-static double number(const Chain* chain, size_t m) {
-  return chain->numbers == CHAIN_DOUBLE ? ((const double*)chain->cells)[m]
-                                        : (double)((const float*)chain->cells)[m];
-}
-
 /* Which numbers belong to a mass, found by filling the masses alone. */
 static void find_masses(Chain* chain, bool* is_mass) {
   chain_rest(chain);
   for (uint32_t i = 0; i < chain->n_masses; ++i) {
     chain_place(chain, i, 1.0f, 1.0f);
   }
-  for (size_t m = 0; m < n_numbers(chain); ++m) {
-    is_mass[m] = number(chain, m) == 1.0;
+  for (size_t m = 0; m < chains_n_numbers(chain); ++m) {
+    is_mass[m] = chains_number(chain, m) == 1.0;
   }
 }
 
+static void check_rest(Chain* chain, const bool* is_mass) {
+  size_t n_found = 0;
+  for (size_t m = 0; m < chains_n_numbers(chain); ++m) {
+    assert_true(is_mass[m] || chains_number(chain, m) == 0.0);
+    n_found += is_mass[m];
+  }
+  assert_int_equal(n_found, 2 * chain->n_masses);
+}
+
+/* Floats and whole numbers lie in the same places. */
 static void what_is_no_mass_stays_exactly_at_rest(void** state) {
   (void)state;
-  static bool is_mass[MOST_BYTES];
-  static float out[FRAMES];
-  float* const outs[] = {out};
-  const ChainTap tap = {{0, 0}, {1.0f, 0.0f}};
+  static const StringCoefs* const coefs[] = {&flexible, &bending, &straightened};
+  static bool is_mass[CHAINS_MOST_BYTES];
   Random random = random_start();
   for (uint32_t kernel = 0; chain_kernel(kernel); ++kernel) {
     for (uint32_t n = 1; n <= 70; ++n) {
       Chain chain;
       chain_init(&chain, chain_kernel(kernel), memory, n);
-      for (int turn = 0; turn < 20; ++turn) {
-        chain_set(&chain, turn % 2 ? flexible : bending);
+      for (int turn = 0; turn < 18; ++turn) {
+        chain_set(&chain, *coefs[turn % 3]);
         assert_true(chain_hold(&chain, turn % 4 < 2 ? CHAIN_FLOAT : CHAIN_DOUBLE));
         find_masses(&chain, is_mass);
-        place_noise(&chain, &random);
-        chain_run(&chain, 5, &tap, 1, outs);
-        chain_glide(&chain, turn % 2 ? bending : flexible, 30);
-        chain_run(&chain, 20, &tap, 1, outs);
-        size_t n_found = 0;
-        for (size_t m = 0; m < n_numbers(&chain); ++m) {
-          assert_true(is_mass[m] || number(&chain, m) == 0.0);
-          n_found += is_mass[m];
+        chains_place_noise(&chain, &random);
+        chains_run(&chain, 5);
+        check_rest(&chain, is_mass);
+        chain_glide(&chain, *coefs[turn / 3 % 3], 20);
+        chains_run(&chain, 20);
+        check_rest(&chain, is_mass);
+        if (turn % 4 < 2 && turn / 3 % 3 > 0) {
+          assert_true(chain_hold(&chain, CHAIN_FIXED));
+          chains_run(&chain, 20);
+          check_rest(&chain, is_mass);
         }
-        assert_int_equal(n_found, 2 * n);
       }
     }
   }
@@ -189,11 +209,14 @@ static void neighbours_in_memory_are_not_touched(void** state) {
       Chain chain;
       chain_init(&chain, chain_kernel(kernel), memory + before, n);
       for (int turn = 0; turn < 4; ++turn) {
-        place_noise(&chain, &random);
-        chain_set(&chain, turn % 2 ? bending : flexible);
+        chains_place_noise(&chain, &random);
+        chain_set(&chain, turn % 2 ? straightened : bending);
+        assert_true(chain_hold(&chain, CHAIN_FIXED));
+        chains_run(&chain, 10);
+        chain_set(&chain, turn % 2 ? straightened : flexible);
         assert_true(chain_hold(&chain, turn % 2 ? CHAIN_DOUBLE : CHAIN_FLOAT));
         chain_run(&chain, 20, &tap, 1, outs);
-        chain_glide(&chain, turn % 2 ? flexible : bending, 10);
+        chain_glide(&chain, turn % 2 ? flexible : straightened, 10);
         chain_run(&chain, 20, &tap, 1, outs);
         chain_rest(&chain);
       }
@@ -215,7 +238,7 @@ static void taps_are_added_to_what_is_there(void** state) {
   Chain chain;
   chain_init(&chain, chain_kernel(0), memory, N);
   chain_set(&chain, flexible);
-  place_noise(&chain, &random);
+  chains_place_noise(&chain, &random);
   for (uint32_t n = 0; n < RUN; ++n) {
     float* const here[] = {out + n};
     chain_run(&chain, 1, &tap, 1, here);
