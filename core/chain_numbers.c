@@ -11,8 +11,8 @@ static const double WEAK_DAMPING = 1e-4;
 
 /* Noise up to which a string is put into whole numbers, relative to the motion, and up to which it
  * is then left there. */
-static const double QUIET = 7e-7;
-static const double QUIET_ENOUGH = 1e-6;
+static const double QUIET = 3e-6;
+static const double QUIET_ENOUGH = 4e-6;
 
 /* How much too large or too small the numbers may be before they are scaled anew. */
 static const double TOO_SMALL = 4.0;

@@ -140,11 +140,22 @@ typedef struct {
   const RealVector* dither;
 } Links;
 
+/* The links behind the last cell are those before the first, a lane on, and must be rounded alike,
+   or they would pull one mass and not the other. */
+INLINE RealVector dither_at(uint32_t j, const Links* links, bool is_end) {
+  const RealVector here = links->dither[j];
+  if (is_end) {
+    return __builtin_shufflevector(links->dither[0], here, CHAIN_LOOP_BEHIND);
+  }
+  return here;
+}
+
 /* Of the link between cell j − 1 and cell j, whose difference of x and u is given.  The largest
    comes last, so that the small are not lost in its last place. */
-INLINE Vector link_of(Vector dx, Vector du, uint32_t j, const Links* links, Scene scene) {
+INLINE Vector
+link_of(Vector dx, Vector du, uint32_t j, bool is_end, const Links* links, Scene scene) {
   const Coefs* const c = links->c;
-  RealVector link = CHAIN_LOOP_IS_FIXED ? links->dither[j] : (RealVector){0};
+  RealVector link = CHAIN_LOOP_IS_FIXED ? dither_at(j, links, is_end) : (RealVector){0};
   if (scene.damping == CHAIN_BETWEEN) {
     link += c->z1 * real(du);
   }
@@ -191,17 +202,17 @@ INLINE void step(Strand* strand, Scene scene) {
   const Vector x_end = behind(x);
   const Vector u_end = behind(u);
   Vector link_before =
-      link_of(x - before(cells[last].x), u - before(cells[last].u), 0, &links, scene);
+      link_of(x - before(cells[last].x), u - before(cells[last].u), 0, false, &links, scene);
   for (uint32_t j = 0; j < last; ++j) {
     const Vector x_next = cells[j + 1].x;
     const Vector u_next = cells[j + 1].u;
-    const Vector link = link_of(x_next - x, u_next - u, j + 1, &links, scene);
+    const Vector link = link_of(x_next - x, u_next - u, j + 1, false, &links, scene);
     move(&cells[j], x, u, link - link_before, c, scene);
     link_before = link;
     x = x_next;
     u = u_next;
   }
-  const Vector link = link_of(x_end - x, u_end - u, last + 1, &links, scene);
+  const Vector link = link_of(x_end - x, u_end - u, last + 1, true, &links, scene);
   move(&cells[last], x, u, link - link_before, c, scene);
   Cell* const wall = &cells[strand->wall_cell];
   wall->x = hold(wall->x, strand->mask);

@@ -1,5 +1,7 @@
 #include "core/harp_string.h"
 
+#include "core/remesh.h"
+
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
@@ -10,6 +12,14 @@ static const double SILENCE = 1e-6;
 /* Amplitude at which it has in any case, should it have been fast to die before it was looked at.
  */
 static const double STILLNESS = 1e-20;
+
+/* Bending, in units of k1, below which a string has given way so far that its upper modes fold
+ * back; fewer masses are better then. */
+static const double MOST_GIVEN_WAY = -0.126;
+
+/* Share of the masses that it should have, or the other way round, from which on a pluck leaves a
+ * ringing string those that it has. */
+static const double ENOUGH_ALIKE = 0.9;
 
 /* τ of a string that is choked [s]; and when it is let go, should one of its upper modes be slow to
  * give in. */
@@ -46,12 +56,18 @@ static void note_design(HarpString* string, double f0_hz, StringCoefs coefs) {
   string->headroom = tuning_headroom(coefs, string->chain.n_masses);
 }
 
+/* As many masses as the string can have and the patch lets it. */
+static uint32_t
+most_masses(const HarpString* string, const Patch* patch, const TuningTarget* target) {
+  const uint32_t limit =
+      patch->max_masses < string->capacity ? patch->max_masses : string->capacity;
+  return tuning_max_masses(target, limit);
+}
+
 /* String it anew from rest; false if it cannot sound at this pitch. */
 static bool restring(HarpString* string, const Patch* patch, double f0_hz) {
   const TuningTarget target = target_of(string, patch, f0_hz, DAMPER_OFF);
-  const uint32_t limit =
-      patch->max_masses < string->capacity ? patch->max_masses : string->capacity;
-  const uint32_t n_masses = tuning_max_masses(&target, limit);
+  const uint32_t n_masses = most_masses(string, patch, &target);
   StringCoefs coefs = {0};
   if (n_masses == 0 || tuning_solve(&target, n_masses, &coefs)) {
     return false;
@@ -95,17 +111,43 @@ void harp_string_sleep(HarpString* string) {
   }
 }
 
-void harp_string_pluck(
-    HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide) {
-  if (string->is_awake) {
-    harp_string_retune(string, patch, bend_semitones, DAMPER_OFF, n_glide);
-  } else if (!restring(string, patch, harp_string_pitch_hz(patch, string->key, bend_semitones))) {
-    return;
+/* The same motion on another number of masses, at the pitch and decay that it has now. */
+static bool mesh_anew(HarpString* string, const TuningTarget* target, uint32_t n_masses) {
+  Chain* const chain = &string->chain;
+  const Pole now = tuning_mode(chain->now, chain->n_masses, 1);
+  TuningTarget kept = *target;
+  StringCoefs coefs = {0};
+  kept.tone = pole_tone(string->rate_hz, now);
+  if (n_masses == 0 || tuning_fit(&kept, n_masses, &coefs)) {
+    return false;
   }
-  if (string->is_awake && string->damper == DAMPER_OFF) {
-    exciter_pluck(&string->chain, pluck, 2.0 * PI * string->f0_hz / string->rate_hz);
-    string->loudest = 0.0;
+  remesh(chain, n_masses);
+  chain_set(chain, coefs);
+  return true;
+}
+
+/* A pluck gives a ringing string the masses that it should have: a bend may have left it too few.
+ */
+static void mesh_for_pluck(HarpString* string, const Patch* patch, double f0_hz) {
+  const TuningTarget target = target_of(string, patch, f0_hz, DAMPER_OFF);
+  const uint32_t wanted = most_masses(string, patch, &target);
+  const uint32_t n_masses = string->chain.n_masses;
+  if (wanted < ENOUGH_ALIKE * n_masses || n_masses < ENOUGH_ALIKE * wanted) {
+    mesh_anew(string, &target, wanted);
   }
+}
+
+/* Coefficients for the masses that it has, or if they would give way too far, for fewer. */
+static bool fit(HarpString* string, const TuningTarget* target, StringCoefs* coefs) {
+  const uint32_t n_masses = string->chain.n_masses;
+  if (!tuning_fit(target, n_masses, coefs) && coefs->k2 > MOST_GIVEN_WAY * coefs->k1) {
+    return true;
+  }
+  const uint32_t fewer = tuning_max_masses(target, n_masses);
+  if (fewer < n_masses && mesh_anew(string, target, fewer)) {
+    return !tuning_fit(target, fewer, coefs);
+  }
+  return !tuning_fit(target, n_masses, coefs);
 }
 
 void harp_string_retune(HarpString* string,
@@ -116,11 +158,11 @@ void harp_string_retune(HarpString* string,
   double f0_hz = harp_string_pitch_hz(patch, string->key, bend_semitones);
   TuningTarget target = target_of(string, patch, f0_hz, damper);
   StringCoefs coefs = {0};
-  if (tuning_fit(&target, string->chain.n_masses, &coefs)) {
+  if (!fit(string, &target, &coefs)) {
     f0_hz = string->f0_hz;
     damper = DAMPER_CHOKING;
     target = target_of(string, patch, f0_hz, damper);
-    if (tuning_fit(&target, string->chain.n_masses, &coefs)) {
+    if (!fit(string, &target, &coefs)) {
       harp_string_sleep(string);
       return;
     }
@@ -129,6 +171,21 @@ void harp_string_retune(HarpString* string,
   string->damper = damper;
   note_design(string, f0_hz, coefs);
   chain_glide(&string->chain, coefs, n_glide);
+}
+
+void harp_string_pluck(
+    HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide) {
+  const double f0_hz = harp_string_pitch_hz(patch, string->key, bend_semitones);
+  if (string->is_awake) {
+    mesh_for_pluck(string, patch, f0_hz);
+    harp_string_retune(string, patch, bend_semitones, DAMPER_OFF, n_glide);
+  } else if (!restring(string, patch, f0_hz)) {
+    return;
+  }
+  if (string->is_awake && string->damper == DAMPER_OFF) {
+    exciter_pluck(&string->chain, pluck, 2.0 * PI * string->f0_hz / string->rate_hz);
+    string->loudest = 0.0;
+  }
 }
 
 static bool is_choked(const HarpString* string) {

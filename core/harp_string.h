@@ -57,15 +57,17 @@ void harp_string_sleep(HarpString* string);
 /**
    Pluck a string.  From rest it is strung anew, with the largest stable number of masses up to the
    patch's; while it rings the pluck adds to its motion, its damper lifts, and the coefficients take
-   `n_glide` frames.  A string whose pitch is at or above Nyquist stays silent.
+   `n_glide` frames (and its motion is moved onto another number of masses if it has a good deal
+   fewer or more than it should).  A string whose pitch is at or above Nyquist stays silent.
 */
 void harp_string_pluck(
     HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide);
 
 /**
    Bring a ringing string to the patch, bend and damper in `n_glide` frames, its motion kept.  Where
-   that would pass its limit stiffness, true partials and loss give way (tuning_fit()); a pitch that
-   cannot be had at all chokes it.
+   that would pass its limit stiffness and true partials give way (tuning_fit()); where they would
+   have to by far, the motion is moved onto fewer masses (core/remesh.h).  A pitch that cannot be had
+   at all chokes it.
 */
 void harp_string_retune(
     HarpString* string, const Patch* patch, double bend_semitones, Damper damper, uint32_t n_glide);
