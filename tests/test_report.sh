@@ -12,7 +12,7 @@ command -v gnuplot >/dev/null 2>&1 || {
 . "$HOOKE_SOURCE/tests/claims.sh"
 
 mkdir empty old
-figures='03 04 05 08 09 10 11 12 13 14 15 16 17 18 19 21'
+figures='03 04 05 08 09 10 11 12 13 14 15 16 17 18 19 21 31 32'
 
 well_formed() {
     if command -v xmllint >/dev/null 2>&1; then
@@ -35,7 +35,7 @@ draws_every_figure() {
         test -s "new/figure-$n.dat" || fail "figure-$n.dat is empty"
     done
     found=$(find new -type f | wc -l)
-    test "$found" -eq $((3 * 16 + 2)) || fail "found $found files: $(ls -A new)"
+    test "$found" -eq $((3 * 18 + 2)) || fail "found $found files: $(ls -A new)"
 }
 
 # The script and the data that lie beside a picture draw it again.
@@ -67,7 +67,7 @@ numbers_agree() {
 
 # One page that needs nothing else.
 page_is_whole() {
-    test "$(grep -c 'src="data:image/svg+xml;base64,' new/report.html)" -eq 16 || fail 'not 16 pictures in the page'
+    test "$(grep -c 'src="data:image/svg+xml;base64,' new/report.html)" -eq 18 || fail 'not 18 pictures in the page'
     ! grep -oE '(src|href)="[^d#][^"]{0,40}' new/report.html || fail 'the page needs another file'
     grep -q 'prefers-color-scheme:dark' new/report.html || fail 'the page knows no dark'
     for n in $figures; do

@@ -14,7 +14,7 @@ typedef struct {
   { figures, sizeof(figures) / sizeof((figures)[0]) }
 
 static const Group groups[] = {GROUP(figure_euler), GROUP(figure_regions), GROUP(figure_warping),
-                               GROUP(figure_lines), GROUP(figure_sounds)};
+                               GROUP(figure_lines), GROUP(figure_sounds),  GROUP(figure_margin)};
 
 #undef GROUP
 

@@ -9,6 +9,7 @@ extern const Figure figure_regions[3]; /**< 8 to 10: which motion, and how long 
 extern const Figure figure_warping[5]; /**< 11 to 15: pitch and decay against the oscillator's */
 extern const Figure figure_lines[2];   /**< 16, 17: equal pitch, equal decay */
 extern const Figure figure_sounds[3];  /**< 18, 19, 21: what is heard */
+extern const Figure figure_margin[2];  /**< 31, 32: how far the instrument is from its limit */
 
 /** Head a block of a data file, and part it from the last. */
 void figure_block(FILE* data, const char* name);
