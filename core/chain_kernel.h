@@ -81,14 +81,14 @@ typedef struct {
   double uu;    /**< Σ u² */
   double slope; /**< Σ (Δy)² over the links, those to the walls too; y = x − u/2 */
   double bow;   /**< Σ (L u)² */
-  double twist; /**< Σ (Δ L y)² over the links; at the far wall possibly more */
+  double twist; /**< Σ (Δ L y)² over the links, L y being nought at the walls */
 } ChainSums;
 
 /** The loops of one kind of numbers. */
 typedef struct {
   size_t number_size; /**< Of a number in the cells [bytes] */
   uint32_t n_lanes;   /**< Segments that a string is cut into */
-  ChainSums (*sum)(const void* cells, uint32_t n_cells);
+  ChainSums (*sum)(const void* cells, uint32_t n_masses, uint32_t n_cells);
   /** CHAIN_FIXED: from floats in the same cells and back; NULL elsewhere.  See ChainWork. */
   void (*take)(void* cells, uint32_t n_cells, double gain, double fade);
   void (*give)(void* cells, uint32_t n_cells, double gain, double fade);

@@ -115,11 +115,14 @@ INLINE void close_field(Field field, uint32_t n_cells) {
   field[n_cells + 1] = __builtin_shufflevector(field[1], wall, CHAIN_LOOP_BEHIND);
 }
 
-INLINE void bend(Field out, const Field in, uint32_t n_cells) {
+/* A hinge carries no moment, so the wall has none, where it is a mass that is held. */
+INLINE void bend(Field out, const Field in, uint32_t n_masses, uint32_t n_cells) {
+  const uint32_t wall = n_masses % n_cells + 1;
   uint32_t j = 1;
   do {
     out[j] = (in[j] - in[j - 1]) - (in[j + 1] - in[j]);
   } while (++j <= n_cells);
+  out[wall] = (RealVector)((Mask)out[wall] & wall_mask(n_masses / n_cells));
   close_field(out, n_cells);
 }
 
@@ -142,7 +145,7 @@ INLINE double sum_of_squares(const Field field, uint32_t n_cells) {
   return sum_of(sum);
 }
 
-static ChainSums sum(const void* memory, uint32_t n_cells) {
+static ChainSums sum(const void* memory, uint32_t n_masses, uint32_t n_cells) {
   const Cell* const cells = memory;
   Field y; /* Half a step back, where x and u are of the same time */
   Field u;
@@ -164,9 +167,9 @@ static ChainSums sum(const void* memory, uint32_t n_cells) {
       .uu = sum_of_squares(u, n_cells),
       .slope = sum_of_slopes(y, n_cells),
   };
-  bend(bow, u, n_cells);
+  bend(bow, u, n_masses, n_cells);
   sums.bow = sum_of_squares(bow, n_cells);
-  bend(bow, y, n_cells);
+  bend(bow, y, n_masses, n_cells);
   sums.twist = sum_of_slopes(bow, n_cells);
   return sums;
 }

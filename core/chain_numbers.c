@@ -86,7 +86,7 @@ void chain_numbers_place(Chain* chain, uint32_t i, double x, double u) {
 }
 
 ChainSums chain_numbers_sum(const Chain* chain) {
-  const ChainSums sums = chain->loops->sum(chain->cells, chain->n_cells);
+  const ChainSums sums = chain->loops->sum(chain->cells, chain->n_masses, chain->n_cells);
   if (chain->numbers != CHAIN_FIXED) {
     return sums;
   }
