@@ -1,4 +1,5 @@
 #include "tools/args.h"
+#include "tools/bench.h"
 #include "tools/modes_command.h"
 #include "tools/render.h"
 #include "tools/report.h"
@@ -23,6 +24,7 @@ static const Command commands[] = {
     {"modes", "say what a scene will sound like, and whether it is stable", modes_help, modes_main},
     {"tune", "find the masses and springs of a pitch and a decay", tune_help, tune_main},
     {"report", "draw the paper's figures and check its numbers", report_help, report_main},
+    {"bench", "measure what strings and instruments cost on this machine", bench_help, bench_main},
 };
 
 enum { N_COMMANDS = sizeof(commands) / sizeof(commands[0]) };
