@@ -121,7 +121,7 @@ static size_t add_string(Load* load, uint32_t i, char* memory) {
   part->taps[1] = pickup_tap(n_masses, 0.25);
   load->angles[load->n_strings] = 2.0 * PI * target.tone.f0_hz / RATE_HZ;
   const bool is_whole = limit < CHAIN_MAX_MASSES;
-  const uint32_t n_wanted = is_whole ? n_masses : tuning_max_masses(&target, UINT32_MAX);
+  const uint32_t n_wanted = is_whole ? n_masses : tuning_max_masses(&target, INT32_MAX);
   load->n_cut += n_wanted > n_masses;
   load->n_wanted += n_wanted;
   load->n_masses += n_masses;
