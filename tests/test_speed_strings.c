@@ -1,7 +1,6 @@
 /* What Hooke Strings costs, as a share of one core: the best of many short runs, for machines are
  * noisy. */
-#define _POSIX_C_SOURCE 200809L
-
+#include "tools/bench_clock.h"
 #include "tools/host.h"
 
 #include <math.h>
@@ -9,36 +8,13 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include <cmocka.h>
 
 enum { RATE_HZ = 48000, BLOCK = 256, LOWEST_KEY = 21, HIGHEST_KEY = 108 };
 
-static double now_s(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* The core that the promises are made for. */
 static const double NOMINAL_HZ = 2.45e9;
-
-/* The clock of now: additions that wait for each other take a cycle each. */
-static double clock_hz(void) {
-  enum { N = 100000 };
-  double best = HUGE_VAL;
-  for (int i = 0; i < 5; ++i) {
-    unsigned long sum = 0;
-    const double start = now_s();
-    for (int k = 0; k < N; ++k) {
-      sum += 1;
-      __asm__ volatile("" : "+r"(sum));
-    }
-    best = fmin(best, now_s() - start);
-  }
-  return N / best;
-}
 
 static Host* open_strings(void) {
   char error[256];
@@ -56,14 +32,14 @@ static double best_share(Host* host, int n_tries, int n_blocks) {
   double best = HUGE_VAL;
   double least_s = HUGE_VAL;
   for (int i = 0; i < n_tries; ++i) {
-    const double before_hz = clock_hz();
-    const double start = now_s();
+    const double before_hz = bench_clock_hz();
+    const double start = bench_clock_now_s();
     for (int k = 0; k < n_blocks; ++k) {
       lilv_instance_run(instance, BLOCK);
     }
-    const double time_s = now_s() - start;
+    const double time_s = bench_clock_now_s() - start;
     least_s = fmin(least_s, time_s);
-    best = fmin(best, time_s * fmax(before_hz, clock_hz()));
+    best = fmin(best, time_s * fmax(before_hz, bench_clock_hz()));
   }
   const double audio_s = (double)n_blocks * BLOCK / RATE_HZ;
   print_message("by the time alone, at the clock as it is: %.4f %% of a core\n",

@@ -1,9 +1,13 @@
 #include "tools/bench.h"
 
 #include "tools/args.h"
+#include "tools/bench_block.h"
 #include "tools/bench_clock.h"
+#include "tools/bench_count.h"
+#include "tools/bench_host.h"
 #include "tools/bench_load.h"
 #include "tools/bench_scene.h"
+#include "tools/bench_start.h"
 #include "tools/bench_table.h"
 
 #include <stdio.h>
@@ -11,6 +15,8 @@
 
 const char bench_help[] =
     "usage: hooke bench [OPTION]... [PART]...\n"
+    "       hooke bench --host URI [--csv]\n"
+    "       hooke bench --one WHAT...\n"
     "\n"
     "Measure what things cost on this machine: the best of many short runs, in turn with each\n"
     "other.  PART is one of these; without any, all are measured, in about half a minute.\n"
@@ -21,12 +27,21 @@ const char bench_help[] =
     "  loads    whole instruments, each string in the numbers that the plugin would choose, and\n"
     "           how many strings one core can run\n"
     "\n"
+    "  start    the time and the memory that a harp takes to be made, and the time of the plugin\n"
+    "  blocks   a gesture's dearest block of 64 frames, against the mean one when nothing "
+    "happens;\n"
+    "           and whether a minute of play makes blocks dearer\n"
+    "\n"
     "  --scene WORDS    scenes: only those with all WORDS, with - between: bending, "
     "ground-still-2\n"
     "  --numbers KIND   scenes: only float, double or fixed\n"
-    "  --masses N       scenes: strings of N masses only\n"
+    "  --masses N       scenes: strings of N masses only; blocks: of N at most, instead of 256\n"
     "  --seconds S      a part takes about S seconds, and in any case measures all once\n"
     "  --csv            one part, for machines: a line of column names, then a line for each\n"
+    "  --host URI       another instrument: what a frame costs with 0, 1, 8, 32 and 88 notes held\n"
+    "  --one WHAT       do that alone and print nothing, to be watched by valgrind or perf; each\n"
+    "                   begins with a call of bench_count_mark().  WHAT is SCENE,NUMBERS,MASSES,\n"
+    "                   FRAMES, or awake,KEYS,FRAMES or asleep,KEYS,FRAMES for a harp\n"
     "\n"
     "The share of the peak is that of the vector operations which a step needs, counted by hand "
     "in\n"
@@ -35,10 +50,11 @@ const char bench_help[] =
     "A multiply-add counts as one operation where the processor has them, else as two.  Loading,\n"
     "storing and shifting lanes are not counted.\n";
 
-enum { SCENE, NUMBERS, MASSES, SECONDS, CSV };
-static const ArgsOption options[] = {
-    [SCENE] = {"--scene", true},     [NUMBERS] = {"--numbers", true}, [MASSES] = {"--masses", true},
-    [SECONDS] = {"--seconds", true}, [CSV] = {"--csv", false},        {0}};
+enum { SCENE, NUMBERS, MASSES, SECONDS, CSV, HOST, ONE };
+static const ArgsOption options[] = {[SCENE] = {"--scene", true},   [NUMBERS] = {"--numbers", true},
+                                     [MASSES] = {"--masses", true}, [SECONDS] = {"--seconds", true},
+                                     [CSV] = {"--csv", false},      [HOST] = {"--host", true},
+                                     [ONE] = {"--one", true},       {0}};
 
 typedef struct {
   const char* name;
@@ -49,6 +65,8 @@ typedef struct {
 static const Part parts[] = {
     {"scenes", 14.0, bench_table},
     {"loads", 6.0, bench_load},
+    {"start", 0.0, bench_start},
+    {"blocks", 0.0, bench_block},
 };
 enum { N_PARTS = sizeof(parts) / sizeof(parts[0]) };
 
@@ -56,6 +74,8 @@ typedef struct {
   BenchChoice choice;
   bool is_asked[N_PARTS];
   int n_asked;
+  const char* plugin_uri; /* NULL: none */
+  bool is_counted;        /* Something was run to be counted, and that is all */
 } Request;
 
 static bool read_scene(const Args* args, Request* request) {
@@ -93,6 +113,16 @@ static bool read_part(const Args* args, Request* request) {
   return false;
 }
 
+static bool count_one(const Args* args, Request* request) {
+  request->is_counted = true;
+  if (!bench_count(args->value)) {
+    args_fail(args, ARGS_USAGE, "--one: found '%s', expected %s", args->value,
+              "SCENE,NUMBERS,MASSES,FRAMES, awake,KEYS,FRAMES or asleep,KEYS,FRAMES");
+    return false;
+  }
+  return true;
+}
+
 static bool read_word(const Args* args, int found, Request* request) {
   BenchChoice* const choice = &request->choice;
   long n_masses = 0;
@@ -112,6 +142,11 @@ static bool read_word(const Args* args, int found, Request* request) {
   case CSV:
     choice->is_csv = true;
     return true;
+  case HOST:
+    request->plugin_uri = args->value;
+    return true;
+  case ONE:
+    return count_one(args, request);
   default:
     return found == ARGS_OPERAND && read_part(args, request);
   }
@@ -138,6 +173,17 @@ static int run_parts(const Args* args, const Request* request) {
   return ferror(stdout) ? ARGS_FAILURE : ARGS_OK;
 }
 
+static int run_host(const Args* args, const Request* request) {
+  char error[512] = "";
+  if (request->n_asked > 0) {
+    return args_fail(args, ARGS_USAGE, "--host: found a part as well, expected no part");
+  }
+  if (!bench_host(request->plugin_uri, request->choice.is_csv, error, sizeof(error))) {
+    return args_fail(args, ARGS_FAILURE, "%s", error);
+  }
+  return ferror(stdout) ? ARGS_FAILURE : ARGS_OK;
+}
+
 int bench_main(int argc, char** argv) {
   (void)argc;
   Args args = {.command = "hooke bench", .words = argv + 1, .options = options};
@@ -147,5 +193,8 @@ int bench_main(int argc, char** argv) {
       return ARGS_USAGE;
     }
   }
-  return run_parts(&args, &request);
+  if (request.is_counted) {
+    return ARGS_OK;
+  }
+  return request.plugin_uri ? run_host(&args, &request) : run_parts(&args, &request);
 }
