@@ -13,6 +13,7 @@ command -v gnuplot >/dev/null 2>&1 || {
 
 mkdir empty old
 figures='03 04 05 08 09 10 11 12 13 14 15 16 17 18 19 21 31 32'
+errors='pitch decay partials partials-stiff noise'
 
 well_formed() {
     if command -v xmllint >/dev/null 2>&1; then
@@ -34,8 +35,13 @@ draws_every_figure() {
         ! grep -qi 'nan\|>inf<' "new/figure-$n.svg" || fail "figure-$n.svg has a NaN in it"
         test -s "new/figure-$n.dat" || fail "figure-$n.dat is empty"
     done
+    for name in $errors; do
+        well_formed "new/error-$name.svg" || fail "error-$name.svg is not well formed"
+        test "$(grep -c '<use' "new/error-$name.svg")" -gt 100 || fail "error-$name.svg has next to nothing in it"
+        ! grep -qi 'nan\|>inf<' "new/error-$name.svg" || fail "error-$name.svg has a NaN in it"
+    done
     found=$(find new -type f | wc -l)
-    test "$found" -eq $((3 * 18 + 2)) || fail "found $found files: $(ls -A new)"
+    test "$found" -eq $((3 * 18 + 3 * 5 + 3)) || fail "found $found files: $(ls -A new)"
 }
 
 # The script and the data that lie beside a picture draw it again.
@@ -67,7 +73,7 @@ numbers_agree() {
 
 # One page that needs nothing else.
 page_is_whole() {
-    test "$(grep -c 'src="data:image/svg+xml;base64,' new/report.html)" -eq 18 || fail 'not 18 pictures in the page'
+    test "$(grep -c 'src="data:image/svg+xml;base64,' new/report.html)" -eq 23 || fail 'not 23 pictures in the page'
     ! grep -oE '(src|href)="[^d#][^"]{0,40}' new/report.html || fail 'the page needs another file'
     grep -q 'prefers-color-scheme:dark' new/report.html || fail 'the page knows no dark'
     for n in $figures; do
@@ -86,7 +92,33 @@ fills_an_old_directory() {
     "$HOOKE_BIN" report old/ >log 2>errors || fail "report old/: $(cat errors)"
     test "$(cat old/mine)" = mine || fail 'another file was touched'
     rm old/mine
-    diff -r old new || fail 'drawn otherwise the second time'
+    for directory in old new; do
+        without_run_time "$directory/report.md" '^## Error' >"$directory.md"
+        without_run_time "$directory/report.html" 'id="error"' >"$directory.html"
+    done
+    diff old.md new.md || fail 'told otherwise the second time'
+    cmp old.html new.html || fail 'another page the second time'
+    diff -r -x 'error*' -x 'report.*' old new || fail 'drawn otherwise the second time'
+}
+
+# Run time is never the same twice, and comes last.
+without_run_time() {
+    grep -q "$2" "$1" || fail "$1 says nothing of errors"
+    sed "/$2/,\$d" "$1"
+}
+
+# Every point is compared, the default is among them, and every string has a frontier.
+errors_are_weighed() {
+    awk -F , '
+        NR > 1 { n++; strings[$1 "," $2 "," $3]++ }
+        NR > 1 && /,[abd]*c[abd]*$/ { front[$1 "," $2 "," $3]++ }
+        END {
+            for (s in strings) { count++; if (!front[s]) { print "no frontier:", s; bad++ } }
+            exit n < 5000 || count != 40 || bad
+        }' new/errors.csv || fail 'errors.csv is not whole'
+    grep -q 'masses (True[a-z]*) give .* cents at the tenth partial of 55 Hz, for .* % of a core' new/report.md ||
+        fail 'report.md does not say what masses give'
+    grep -q 'Which default?' new/report.md || fail 'report.md gives no advice'
 }
 
 refuses_without_a_trace() {
@@ -126,6 +158,7 @@ draws_every_figure
 scripts_draw_again
 numbers_agree
 page_is_whole
+errors_are_weighed
 fills_an_old_directory
 refuses_without_a_trace
 survives_a_bad_gnuplot

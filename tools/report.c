@@ -5,6 +5,7 @@
 #include "tools/gnuplot.h"
 #include "tools/report_page.h"
 #include "tools/report_place.h"
+#include "tools/trade_page.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -23,7 +24,10 @@ const char report_help[] =
     "  figure-NN.svg                       a picture each\n"
     "  figure-NN.dat, figure-NN.gp         what it was drawn from; gnuplot figure-NN.gp draws it\n"
     "                                      again\n"
+    "  error-NAME.svg, .dat, .gp           error against run time, of all ways to make a string\n"
+    "  errors.csv                          all that is compared in them\n"
     "\n"
+    "Run time is measured, in some ten seconds, and is a little different every time.\n"
     "It needs gnuplot.  Files of these names are replaced.\n";
 
 static const ArgsOption options[] = {{0}};
@@ -94,20 +98,36 @@ static bool draw(const ReportPlace* place, char* error, size_t error_size) {
   return is_drawn;
 }
 
-static bool write_pages(const ReportPlace* place) {
+static bool write_pages(const ReportPlace* place, const TradeReport* trade) {
   FILE* const table = report_place_file(place, "report.md");
   if (table) {
     report_page_markdown(table);
+    trade_page_markdown(table, trade);
   }
   if (!table || !report_place_close(table)) {
     return false;
   }
   FILE* const page = report_place_file(place, "report.html");
-  const bool is_whole = page && report_page_html(page, place);
+  const bool is_whole = page && report_page_html(page, place, trade);
   const int reason = errno;
   const bool is_written = page && report_place_close(page);
   errno = is_whole ? errno : reason;
   return is_whole && is_written;
+}
+
+/* What differs from run to run comes last: run time. */
+static bool write_trade(const ReportPlace* place, char* error, size_t error_size) {
+  TradeReport trade;
+  if (trade_page_measure(&trade)) {
+    errno = ENOMEM;
+    return false;
+  }
+  const bool is_written = trade_page_files(place, &trade) &&
+                          trade_page_draw(place, error, error_size) && write_pages(place, &trade);
+  const int reason = errno;
+  trade_page_free(&trade);
+  errno = reason;
+  return is_written;
 }
 
 static int make(const Args* args, const char* path) {
@@ -119,8 +139,8 @@ static int make(const Args* args, const char* path) {
   if (!report_place_open(&place, path)) {
     return args_fail(args, ARGS_FAILURE, "%s: %s", path, strerror(errno));
   }
-  const bool is_done =
-      write_figures(&place) && draw(&place, error, sizeof(error)) && write_pages(&place);
+  const bool is_done = write_figures(&place) && draw(&place, error, sizeof(error)) &&
+                       write_trade(&place, error, sizeof(error));
   if (!is_done) {
     report_place_drop(&place);
   }

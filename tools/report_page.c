@@ -119,7 +119,7 @@ static bool write_figure(FILE* out, const ReportPlace* place, const Figure* figu
   return is_written;
 }
 
-bool report_page_html(FILE* out, const ReportPlace* place) {
+bool report_page_html(FILE* out, const ReportPlace* place, const TradeReport* trade) {
   bool is_written = true;
   (void)fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
               "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
@@ -132,6 +132,7 @@ bool report_page_html(FILE* out, const ReportPlace* place) {
   for (unsigned i = 0; is_written && i < FIGURE_COUNT; ++i) {
     is_written = write_figure(out, place, figure_at(i));
   }
+  is_written = is_written && trade_page_html(out, place, trade);
   (void)fputs("</body>\n</html>\n", out);
   return is_written;
 }

@@ -7,6 +7,7 @@
 #define HOOKE_TOOLS_REPORT_PAGE_H
 
 #include "tools/report_place.h"
+#include "tools/trade_page.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -25,6 +26,6 @@ void report_page_markdown(FILE* out);
 
    @return false with errno set if a picture cannot be read
 */
-bool report_page_html(FILE* out, const ReportPlace* place);
+bool report_page_html(FILE* out, const ReportPlace* place, const TradeReport* trade);
 
 #endif
