@@ -186,7 +186,8 @@ static bool is_worse(const TradePoint* a, const TradePoint* b, TradeError error)
          (a->share >= b->share && level_a > grain * level_b + step);
 }
 
-/* Points with any errors: of those on the frontier none is beaten, of the others each. */
+/* Points with any errors, many of one price: of those on the frontier none is beaten, of the others
+ * each. */
 static void nothing_beats_a_frontier(void** state) {
   enum { N = 300 };
   static TradePoint points[N];
@@ -196,7 +197,7 @@ static void nothing_beats_a_frontier(void** state) {
   for (size_t i = 0; i < N; ++i) {
     points[i] = (TradePoint){.method = trade_method(random_below(&random, TRADE_N_METHODS)),
                              .string = trade_string((unsigned)i / (N / 3), 0, 0),
-                             .share = random_log_between(&random, 1e-4, 1.0),
+                             .share = ldexp(1e-4, (int)random_below(&random, 12)),
                              .is_stable = random_below(&random, 10) > 0};
     points[i].error[TRADE_PITCH] = random_log_between(&random, 1e-3, 1e3);
     points[i].error[TRADE_DECAY] = i % 7 ? random_log_between(&random, 1e-3, 1e3) : (double)NAN;
