@@ -68,7 +68,14 @@ void chain_set(Chain* chain, StringCoefs coefs) {
   arrive(chain);
 }
 
+static bool is_same(StringCoefs a, StringCoefs b) {
+  return a.k1 == b.k1 && a.k2 == b.k2 && a.k3 == b.k3 && a.z0 == b.z0 && a.z1 == b.z1;
+}
+
 void chain_glide(Chain* chain, StringCoefs coefs, uint32_t n_frames) {
+  if (chain->n_gliding == 0 && is_same(coefs, chain->now)) {
+    return;
+  }
   if (n_frames == 0) {
     chain_set(chain, coefs);
     return;

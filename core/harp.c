@@ -7,11 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How often strings are looked at for whether they have died away [frames]. */
-enum { DOZE_FRAMES = 1024 };
-
-/* What a gesture (a damper falling, the wheel) takes [s]. */
+/* What a gesture (a damper falling, the wheel) takes [s], and the fewest steps: a string must have
+ * the time to follow it, whatever the rate, or gestures would pump it. */
 static const double GESTURE_S = 0.004;
+enum { GESTURE_FRAMES = 192 };
 
 /* How much harder the hardest velocity plucks than the one where the patch's hardness is what it
  * says. */
@@ -30,13 +29,14 @@ static HarpPlaces places_of(const Patch* patch) {
 static uint32_t gather(Harp* harp, const HarpReading* reading) {
   uint32_t n_parts = 0;
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    Chain* const chain = &harp->strings[key].chain;
-    if (harp->strings[key].is_awake) {
-      ChainPart* const part = &harp->parts[n_parts++];
-      part->chain = chain;
+    HarpString* const string = &harp->strings[key];
+    if (string->is_awake) {
+      ChainPart* const part = &harp->parts[n_parts];
+      part->chain = &string->chain;
       for (uint32_t t = 0; t < reading->n_taps; ++t) {
-        part->taps[t] = pickup_tap(chain->n_masses, reading->place[t]);
+        part->taps[t] = pickup_tap(string->chain.n_masses, reading->place[t]);
       }
+      harp->awake[n_parts++] = string;
     }
   }
   return n_parts;
@@ -65,40 +65,63 @@ static uint32_t least(uint32_t a, uint32_t b) {
   return a < b ? a : b;
 }
 
-/* Frames that can be run in one go: nothing may change within them but by its own ramp. */
-static uint32_t stretch(const Harp* harp, uint32_t n_parts, uint32_t n_frames) {
-  uint32_t n = least(n_frames, HARP_MIX_FRAMES);
-  n = least(n, DOZE_FRAMES - (uint32_t)(harp->frame % DOZE_FRAMES));
-  n = harp->pickups.fade.n_left > 0 ? least(n, harp->pickups.fade.n_left) : n;
-  for (uint32_t i = 0; i < n_parts; ++i) {
-    n = least(n, chain_stretch(harp->parts[i].chain));
-  }
-  return n;
+/* Frames that can be run in one go: the pickups may not change within them but by their own ramp.
+ */
+static uint32_t stretch(const Harp* harp, uint32_t n_frames) {
+  const uint32_t n = least(n_frames, HARP_MIX_FRAMES);
+  const uint32_t n_left = harp->pickups.fade.n_left;
+  return n_left > 0 ? least(n, n_left) : n;
 }
 
-static void doze_all(Harp* harp) {
-  for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    if (harp->strings[key].is_awake) {
-      harp_string_doze(&harp->strings[key], DOZE_FRAMES);
+/* Frames that a string can be run in one go. */
+static uint32_t stretch_of(const HarpString* string) {
+  return least(chain_stretch(&string->chain), harp_string_stretch(string));
+}
+
+/* Run a string that something happens to on the way. */
+static void run_in_pieces(
+    HarpString* string, const ChainPart* part, uint32_t n_frames, uint32_t n_taps, float** out) {
+  for (uint32_t done = 0; done < n_frames && string->is_awake;) {
+    const uint32_t n = least(n_frames - done, stretch_of(string));
+    float* rest[CHAIN_MAX_TAPS];
+    for (uint32_t t = 0; t < n_taps; ++t) {
+      rest[t] = out[t] + done;
     }
+    chain_run_all(part, 1, n, n_taps, rest);
+    harp_string_pass(string, n);
+    done += n;
+  }
+}
+
+/* Run the strings awake in their order, those that nothing happens to side by side. */
+static void
+run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps, float** out) {
+  uint32_t first = 0;
+  for (uint32_t i = 0; i <= n_parts; ++i) {
+    if (i < n_parts && stretch_of(harp->awake[i]) > n_frames) {
+      continue;
+    }
+    chain_run_all(&harp->parts[first], i - first, n_frames, n_taps, out);
+    for (; first < i; ++first) {
+      harp_string_pass(harp->awake[first], n_frames);
+    }
+    if (i < n_parts) {
+      run_in_pieces(harp->awake[i], &harp->parts[i], n_frames, n_taps, out);
+    }
+    first = i + 1;
   }
 }
 
 /* Run as many of `n_frames` as can be run in one go; how many they were. */
 static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* right) {
   const HarpReading reading = harp_pickups_reading(&harp->pickups);
-  const uint32_t n_parts = gather(harp, &reading);
-  const uint32_t n = stretch(harp, n_parts, n_frames);
+  const uint32_t n = stretch(harp, n_frames);
   float* out[CHAIN_MAX_TAPS];
   for (uint32_t t = 0; t < reading.n_taps; ++t) {
     out[t] = memset(harp->mix[t], 0, n * sizeof(float));
   }
-  chain_run_all(harp->parts, n_parts, n, reading.n_taps, out);
+  run_strings(harp, gather(harp, &reading), n, reading.n_taps, out);
   mix_down(harp, &reading, n, left, right);
-  harp->frame += n;
-  if (harp->frame % DOZE_FRAMES == 0) {
-    doze_all(harp);
-  }
   return n;
 }
 
@@ -140,7 +163,7 @@ Harp* harp_new(double rate_hz) {
     return NULL;
   }
   harp->rate_hz = rate_hz;
-  harp->n_gesture = (uint32_t)fmax(1.0, round(GESTURE_S * rate_hz));
+  harp->n_gesture = (uint32_t)fmax(GESTURE_FRAMES, round(GESTURE_S * rate_hz));
   const size_t size = lay_out(harp, NULL) + chain_size(1);
   harp->memory = aligned_alloc(CHAIN_ALIGNMENT, size);
   if (!harp->memory) {
@@ -166,17 +189,27 @@ void harp_reset(Harp* harp) {
   }
   harp->is_pedal_down = false;
   harp->bend_semitones = 0.0;
-  harp->frame = 0;
 }
 
-void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_glide) {
+/* Whether what rings has the same coefficients under both. */
+static bool is_same_string(const Patch* a, const Patch* b) {
+  return a->damping_per_s == b->damping_per_s && a->tracking == b->tracking && a->loss == b->loss &&
+         a->inharmonicity == b->inharmonicity && a->release_s == b->release_s &&
+         a->tuning_hz == b->tuning_hz && a->partials == b->partials;
+}
+
+void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_frames) {
+  const bool is_same = is_same_string(patch, &harp->patch);
+  const uint32_t n_glide = n_frames > 0 && n_frames < harp->n_gesture ? harp->n_gesture : n_frames;
   harp->patch = *patch;
   harp->n_fade = n_glide;
   ramp_to(&harp->level, (float)patch->level, n_glide);
   if (n_glide == 0) {
     harp_pickups_set(&harp->pickups, places_of(patch));
   }
-  retune_all(harp, n_glide);
+  if (!is_same) {
+    retune_all(harp, n_glide);
+  }
 }
 
 void harp_note_on(Harp* harp, uint32_t key, uint32_t velocity) {

@@ -48,7 +48,6 @@ typedef struct {
 typedef struct {
   double rate_hz;
   uint32_t n_gesture; /**< Frames that a player's gesture takes to act */
-  uint64_t frame;     /**< Frames run since reset */
   Patch patch;
   double bend_semitones;
   bool is_pedal_down;
@@ -57,8 +56,9 @@ typedef struct {
   uint32_t n_fade; /**< Frames that the next fade will take */
   HarpKey keys[HARP_KEYS];
   HarpString strings[HARP_KEYS];
-  void* memory;               /**< Memory of all strings; owned */
-  ChainPart parts[HARP_KEYS]; /**< The strings awake, while they are run */
+  void* memory;                 /**< Memory of all strings; owned */
+  HarpString* awake[HARP_KEYS]; /**< The strings awake, while they are run */
+  ChainPart parts[HARP_KEYS];   /**< Their chains, and where they are read */
   float mix[CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;
 
@@ -76,9 +76,9 @@ void harp_free(Harp* harp);
 /** Bring all strings to rest at once; keys and pedal up, wheel in its middle. */
 void harp_reset(Harp* harp);
 
-/** Take a new patch; what rings gets there in `n_glide` frames (0: at once).  How and where it is
-   plucked, and the most masses, hold from the next pluck on. */
-void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_glide);
+/** Take a new patch; what rings gets there in `n_frames`, and no faster than by a gesture (0: at
+   once).  How and where it is plucked, and the most masses, hold from the next pluck on. */
+void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_frames);
 
 /** Key down: pluck its string.  `velocity` 1 to 127, loudness as its square; harder plucks are a
  * little brighter. */

@@ -17,9 +17,10 @@ static const double STILLNESS = 1e-20;
  * back; fewer masses are better then. */
 static const double MOST_GIVEN_WAY = -0.126;
 
-/* Share of the masses that it should have, or the other way round, from which on a pluck leaves a
- * ringing string those that it has. */
-static const double ENOUGH_ALIKE = 0.9;
+/* How often a string is looked at for whether it has died away and what numbers suit it [frames];
+ * and by how much the first time differs from key to key, after a pluck and after a glide, so that
+ * those touched together are not all looked at together. */
+enum { DOZE_FRAMES = 1024, DOZE_PLACES = 16, PLUCK_SPREAD = 64, GLIDE_SPREAD = 8 };
 
 /* τ of a string that is choked [s]; and when it is let go, should one of its upper modes be slow to
  * give in. */
@@ -56,18 +57,12 @@ static void note_design(HarpString* string, double f0_hz, StringCoefs coefs) {
   string->headroom = tuning_headroom(coefs, string->chain.n_masses);
 }
 
-/* As many masses as the string can have and the patch lets it. */
-static uint32_t
-most_masses(const HarpString* string, const Patch* patch, const TuningTarget* target) {
-  const uint32_t limit =
-      patch->max_masses < string->capacity ? patch->max_masses : string->capacity;
-  return tuning_max_masses(target, limit);
-}
-
 /* String it anew from rest; false if it cannot sound at this pitch. */
 static bool restring(HarpString* string, const Patch* patch, double f0_hz) {
   const TuningTarget target = target_of(string, patch, f0_hz, DAMPER_OFF);
-  const uint32_t n_masses = most_masses(string, patch, &target);
+  const uint32_t limit =
+      patch->max_masses < string->capacity ? patch->max_masses : string->capacity;
+  const uint32_t n_masses = tuning_max_masses(&target, limit);
   StringCoefs coefs = {0};
   if (n_masses == 0 || tuning_solve(&target, n_masses, &coefs)) {
     return false;
@@ -78,6 +73,8 @@ static bool restring(HarpString* string, const Patch* patch, double f0_hz) {
   string->is_awake = true;
   string->damper = DAMPER_OFF;
   string->loudest = 0.0;
+  string->n_strung = n_masses;
+  string->n_until_doze = PLUCK_SPREAD * (1 + string->key % DOZE_PLACES);
   return true;
 }
 
@@ -126,14 +123,14 @@ static bool mesh_anew(HarpString* string, const TuningTarget* target, uint32_t n
   return true;
 }
 
-/* A pluck gives a ringing string the masses that it should have: a bend may have left it too few.
- */
+/* A pluck gives a ringing string the masses back that a bend took. */
 static void mesh_for_pluck(HarpString* string, const Patch* patch, double f0_hz) {
-  const TuningTarget target = target_of(string, patch, f0_hz, DAMPER_OFF);
-  const uint32_t wanted = most_masses(string, patch, &target);
-  const uint32_t n_masses = string->chain.n_masses;
-  if (wanted < ENOUGH_ALIKE * n_masses || n_masses < ENOUGH_ALIKE * wanted) {
-    mesh_anew(string, &target, wanted);
+  if (string->chain.n_masses < string->n_strung) {
+    const TuningTarget target = target_of(string, patch, f0_hz, DAMPER_OFF);
+    const uint32_t n_masses = tuning_max_masses(&target, string->n_strung);
+    if (n_masses > string->chain.n_masses) {
+      mesh_anew(string, &target, n_masses);
+    }
   }
 }
 
@@ -171,6 +168,8 @@ void harp_string_retune(HarpString* string,
   string->damper = damper;
   note_design(string, f0_hz, coefs);
   chain_glide(&string->chain, coefs, n_glide);
+  const uint32_t n_settled = n_glide + GLIDE_SPREAD * (1 + string->key % DOZE_PLACES);
+  string->n_until_doze = n_settled < string->n_until_doze ? n_settled : string->n_until_doze;
 }
 
 void harp_string_pluck(
@@ -184,6 +183,7 @@ void harp_string_pluck(
   }
   if (string->is_awake && string->damper == DAMPER_OFF) {
     exciter_pluck(&string->chain, pluck, 2.0 * PI * string->f0_hz / string->rate_hz);
+    chain_settle(&string->chain);
     string->loudest = 0.0;
   }
 }
@@ -192,7 +192,7 @@ static bool is_choked(const HarpString* string) {
   return string->damper == DAMPER_CHOKING && string->n_choked >= CHOKED_S * string->rate_hz;
 }
 
-void harp_string_doze(HarpString* string, uint32_t n_frames) {
+static void doze(HarpString* string) {
   string->loudest = fmax(string->loudest, chain_amplitude(&string->chain, HUGE_VAL));
   const double silence = fmax(SILENCE * string->loudest, STILLNESS);
   if (is_choked(string) || chain_amplitude(&string->chain, string->a1) < silence) {
@@ -200,5 +200,17 @@ void harp_string_doze(HarpString* string, uint32_t n_frames) {
   } else {
     chain_settle(&string->chain);
   }
+  string->n_until_doze = DOZE_FRAMES;
+}
+
+uint32_t harp_string_stretch(const HarpString* string) {
+  return string->n_until_doze;
+}
+
+void harp_string_pass(HarpString* string, uint32_t n_frames) {
+  string->n_until_doze -= n_frames;
   string->n_choked += string->damper == DAMPER_CHOKING ? n_frames : 0;
+  if (string->n_until_doze == 0) {
+    doze(string);
+  }
 }

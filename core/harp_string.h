@@ -32,7 +32,9 @@ typedef struct {
   double a1;                 /**< (ω0 h)² of its fundamental */
   double headroom;           /**< Of its coefficients, see tuning_headroom() */
   double loudest;            /**< Largest displacement seen since it was last plucked */
-  uint32_t n_choked;         /**< Frames in which it has been choked, at the least */
+  uint32_t n_choked;         /**< Frames in which it has been choked */
+  uint32_t n_strung;         /**< Masses that it was strung with; a bend may have left it fewer */
+  uint32_t n_until_doze;     /**< Frames until it is next looked at, see harp_string_doze() */
   bool is_awake;             /**< Whether it moves */
   Damper damper;
 } HarpString;
@@ -56,9 +58,9 @@ void harp_string_sleep(HarpString* string);
 
 /**
    Pluck a string.  From rest it is strung anew, with the largest stable number of masses up to the
-   patch's; while it rings the pluck adds to its motion, its damper lifts, and the coefficients take
-   `n_glide` frames (and its motion is moved onto another number of masses if it has a good deal
-   fewer or more than it should).  A string whose pitch is at or above Nyquist stays silent.
+   patch's; while it rings the pluck adds to its motion, its damper lifts, the coefficients take
+   `n_glide` frames, and if a bend has left it few of its masses it has them again.  A string whose
+   pitch is at or above Nyquist stays silent.
 */
 void harp_string_pluck(
     HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide);
@@ -66,18 +68,20 @@ void harp_string_pluck(
 /**
    Bring a ringing string to the patch, bend and damper in `n_glide` frames, its motion kept.  Where
    that would pass its limit stiffness and true partials give way (tuning_fit()); where they would
-   have to by far, the motion is moved onto fewer masses (core/remesh.h).  A pitch that cannot be had
-   at all chokes it.
+   have to by far, the motion is moved onto fewer masses (core/remesh.h).  A pitch that cannot be
+   had at all chokes it.
 */
 void harp_string_retune(
     HarpString* string, const Patch* patch, double bend_semitones, Damper damper, uint32_t n_glide);
 
-/**
-   Put the string to sleep if it has died away to −120 dB of its loudest, or has been choked for a
-   while.
+/** Frames that it can be run until harp_string_doze() is due. */
+uint32_t harp_string_stretch(const HarpString* string);
 
-   @param n_frames  From one call to the next
+/**
+   After `n_frames`, at most its stretch: when it is due, put the string to sleep if it has died
+   away to −120 dB of its loudest, or has been choked for a while; else see that its numbers suit
+   it.
 */
-void harp_string_doze(HarpString* string, uint32_t n_frames);
+void harp_string_pass(HarpString* string, uint32_t n_frames);
 
 #endif

@@ -165,6 +165,13 @@ double tuning_headroom(StringCoefs coefs, uint32_t n_masses) {
   return headroom(coefs, tuning_lambda(n_masses, n_masses));
 }
 
+/* One mass may come nearer to the limit, there being none to leave out. */
+static uint32_t holds_one(const TuningTarget* target) {
+  Design design;
+  return !design_init(&design, target, 1) &&
+         headroom(design_coefs(&design), design.lambda_last) >= TUNING_LAST_MARGIN;
+}
+
 uint32_t tuning_max_masses(const TuningTarget* target, uint32_t limit) {
   uint32_t low = 0;
   uint32_t high = limit;
@@ -177,7 +184,7 @@ uint32_t tuning_max_masses(const TuningTarget* target, uint32_t limit) {
       high = middle - 1;
     }
   }
-  return low;
+  return low == 0 && limit > 0 ? holds_one(target) : low;
 }
 
 Status tuning_fit(const TuningTarget* target, uint32_t n_masses, StringCoefs* coefs) {

@@ -38,9 +38,16 @@
 
 #include <stdint.h>
 
-/** The part of the stability limit that is left unused, so that rounding to float cannot cross it.
+/**
+   The part of the stability limit that is left unused.  A mode so near the limit that it beats with
+   half the rate more slowly than a player's gesture would be pumped by it, and grow.
+*/
+#define TUNING_MARGIN 1e-3
+
+/** The same of a note so high that one mass is all it can have; gestures choke it, see
+ * tuning_fit().
  */
-#define TUNING_MARGIN 1e-4
+#define TUNING_LAST_MARGIN 1e-4
 
 /** How true the partials are to the ideal or stiff string's; each is solved with its b and d. */
 typedef enum {
@@ -98,7 +105,7 @@ double tuning_headroom(StringCoefs coefs, uint32_t n_masses);
 
 /**
    The largest number of masses, at most `limit`, whose string for `target` keeps TUNING_MARGIN of
-   headroom.
+   headroom, and if there is none 1 if one mass keeps TUNING_LAST_MARGIN.
 
    @return 0 if not even one mass does (F at or above Nyquist, or within 0.7 % below it) or the
    target is out of range
@@ -107,9 +114,9 @@ uint32_t tuning_max_masses(const TuningTarget* target, uint32_t limit);
 
 /**
    Solve as tuning_solve(), but for a string that must keep its `n_masses`: pitch and decay stay
-   exact, and where the string would pass its limit, first stiffness gives way and with it what
-   keeps the partials true (in a straight line to k3 = 0 and a slightly negative bending, which
-   flattens the upper ones), then loss, then bending again.
+   exact, and where the string would have less than TUNING_MARGIN of headroom, first stiffness gives
+   way and with it what keeps the partials true (in a straight line to k3 = 0 and a slightly
+   negative bending, which flattens the upper ones), then loss, then bending again.
 
    @param[out] coefs  Untouched on failure
    @return STATUS_OK; STATUS_BAD_ARGUMENT as tuning_solve(); STATUS_UNSTABLE if nothing that may

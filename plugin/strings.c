@@ -93,7 +93,8 @@ static void activate(LV2_Handle handle) {
 
 /* A port that changed takes the whole block to get there, so that a host's stairs become slopes. */
 static void take_controls(Strings* self, uint32_t n_frames) {
-  const Controls controls = ports_read(self->ports);
+  Controls controls = ports_read(self->ports);
+  controls.value[PORT_FREEWHEEL] = 0.0f; /* It sounds the same. */
   if (!self->is_fresh && ports_are_same(&controls, &self->controls)) {
     return;
   }

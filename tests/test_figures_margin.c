@@ -52,7 +52,7 @@ static void check_map(unsigned number, SettingName name) {
     if (sscanf(line, "%u %lf %lf %u", &key, &setting.value[name], &margin, &n_masses) == 4) {
       worst = fmax(worst, fabs(margin / margin_of(setting, key, n_masses) - 1.0));
       const double more = n_masses < 256 ? margin_of(setting, key, n_masses + 1) : 0.0;
-      assert_true(margin >= 1e-4 && more < 1e-4);
+      assert_true(margin >= TUNING_MARGIN && more < TUNING_MARGIN);
       least = fmin(least, margin);
       ++n_rows;
     }

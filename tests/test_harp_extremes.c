@@ -176,12 +176,10 @@ static void run_case(Case* c, uint32_t n_frames, Runs* runs) {
   double least = energy_now(c);
   uint32_t done = 0;
   while (done < n_frames && c->string.is_awake) {
-    const uint32_t n = done < LEAST_STEPS ? 1 : DOZE - done % DOZE;
+    const uint32_t n = done < LEAST_STEPS ? 1 : harp_string_stretch(&c->string);
     run_frames(c, n);
     done += n;
-    if (done % DOZE == 0) {
-      harp_string_doze(&c->string, DOZE);
-    }
+    harp_string_pass(&c->string, n);
     const double energy = energy_now(c);
     if (!isfinite(energy) || !(c->string.is_awake || energy == 0.0)) {
       fail_case(c, "energy", energy);

@@ -152,7 +152,7 @@ static void check_strings(const Harp* harp) {
   }
   const HarpReport report = harp_report(harp);
   assert_int_equal(report.n_strings, n_strings);
-  assert_true(report.headroom >= TUNING_MARGIN - 16.0 * DBL_EPSILON);
+  assert_true(report.headroom >= TUNING_LAST_MARGIN - 16.0 * DBL_EPSILON);
 }
 
 /* The largest sample; infinite if there is one that is no number. */
