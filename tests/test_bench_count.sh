@@ -42,9 +42,10 @@ set -- valgrind --tool=callgrind --callgrind-out-file=part --dump-before=bench_c
 while read -r kind name what; do
     set -- "$@" --one "$what,$few" --one "$what,$many"
 done <list
-"$@" >log 2>errors || {
-    tail -n 3 errors
-    fail "valgrind or hooke: status $?"
+"$@" >log 2>errors
+status=$?
+test $status -eq 0 || {
+    fail "valgrind or hooke: status $status: $(tail -n 1 errors)"
     exit 1
 }
 
