@@ -63,8 +63,8 @@ typedef struct {
 } Part;
 
 static const Part parts[] = {
-    {"scenes", 12.0, bench_table},
-    {"loads", 5.0, bench_load},
+    {"scenes", 9.0, bench_table},
+    {"loads", 4.0, bench_load},
     {"start", 0.0, bench_start},
     {"blocks", 0.0, bench_block},
 };
