@@ -27,6 +27,13 @@ enum { DOZE_FRAMES = 1024, DOZE_PLACES = 16, PLUCK_SPREAD = 64, GLIDE_SPREAD = 8
 static const double CHOKE_S = 0.005;
 static const double CHOKED_S = 0.1;
 
+/*
+  Tension that swings in time with a string feeds it, as a swing is fed, stable as each step of it
+  is.  So it is let have this many times the motion that its plucks gave it, which is what a bend of
+  four octaves at the worst moment would give, and no more.
+*/
+static const double MOST_FED = 4.0;
+
 static double decay_s(const Patch* patch, uint32_t key) {
   return 1.0 / (patch->damping_per_s * exp2(patch->tracking * ((double)key - 69.0) / 12.0));
 }
@@ -50,6 +57,31 @@ target_of(const HarpString* string, const Patch* patch, double f0_hz, Damper dam
   };
 }
 
+/* Its amplitude times √ω, which a slow change of pitch leaves alone. */
+static double motion_of(const HarpString* string) {
+  const double a1 = tuning_mode(string->chain.now, string->chain.n_masses, 1).a;
+  return chain_amplitude(&string->chain, a1) * sqrt(sqrt(a1));
+}
+
+/* Take back what moving coefficients fed it beyond what may be. */
+static void hold_back(HarpString* string) {
+  const double most = MOST_FED * string->given;
+  const double motion = motion_of(string);
+  if (motion > most) {
+    const float kept = (float)(most / motion);
+    for (uint32_t i = 0; i < string->chain.n_masses; ++i) {
+      chain_place(&string->chain, i, kept * chain_position(&string->chain, i),
+                  kept * chain_velocity(&string->chain, i));
+    }
+  }
+}
+
+/* What moving coefficients fed it is not taken for a pluck's. */
+static void note_pluck(HarpString* string, double before) {
+  const double after = motion_of(string);
+  string->given = before > string->given ? string->given * (after / before) : after;
+}
+
 /* Remember what the coefficients were made for. */
 static void note_design(HarpString* string, double f0_hz, StringCoefs coefs) {
   string->f0_hz = f0_hz;
@@ -69,6 +101,7 @@ static bool restring(HarpString* string, const Patch* patch, double f0_hz) {
   }
   chain_init(&string->chain, string->kernel, string->memory, n_masses);
   chain_set(&string->chain, coefs);
+  string->given = 0.0;
   note_design(string, f0_hz, coefs);
   string->is_awake = true;
   string->damper = DAMPER_OFF;
@@ -155,6 +188,7 @@ void harp_string_retune(HarpString* string,
   double f0_hz = harp_string_pitch_hz(patch, string->key, bend_semitones);
   TuningTarget target = target_of(string, patch, f0_hz, damper);
   StringCoefs coefs = {0};
+  hold_back(string);
   if (!fit(string, &target, &coefs)) {
     f0_hz = string->f0_hz;
     damper = DAMPER_CHOKING;
@@ -182,9 +216,11 @@ void harp_string_pluck(
     return;
   }
   if (string->is_awake && string->damper == DAMPER_OFF) {
+    const double before = motion_of(string);
     exciter_pluck(&string->chain, pluck, 2.0 * PI * string->f0_hz / string->rate_hz);
     chain_settle(&string->chain);
     string->loudest = 0.0;
+    note_pluck(string, before);
   }
 }
 

@@ -28,6 +28,7 @@ typedef struct {
   uint32_t capacity;         /**< Most masses it can have */
   uint32_t key;              /**< MIDI note number */
   double rate_hz;            /**< Steps per second [Hz] */
+  double given;              /**< Motion that its plucks gave it: √ω times an amplitude */
   double f0_hz;              /**< Pitch it has or is gliding to [Hz] */
   double a1;                 /**< (ω0 h)² of its fundamental */
   double headroom;           /**< Of its coefficients, see tuning_headroom() */
