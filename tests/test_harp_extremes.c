@@ -7,7 +7,6 @@
 #include "tests/random.h"
 #include "tests/settings.h"
 
-#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -205,9 +204,9 @@ static void no_string_gains_energy(void** state) {
     if (!c.string.is_awake) {
       continue;
     }
-    /* A second, or what costs about as much as the next; a short string costs as much as one of a
+    /* A second, or as much of it as there is time for; a short string costs as much as one of a
      * hundred masses. */
-    const double most = is_long() ? 1e9 : 4e6 / (c.string.chain.n_masses + 100.0);
+    const double most = (is_long() ? 3e7 : 4e6) / (c.string.chain.n_masses + 100.0);
     Runs run = {0};
     run_case(&c, (uint32_t)fmin(c.rate_hz, most), &run);
     if (!(run.gain <= 1.0 + MOST_ROUNDING)) {
@@ -250,46 +249,36 @@ static void undamped_string_keeps_its_energy(void** state) {
   assert_within("drift in doubles", worst, 1e-11);
 }
 
-/* The oracle itself, against dense matrices. */
-static void energy_is_the_quadratic_form(void** state) {
+/* Pitches close to Nyquist, from both sides: one mass at most, or silence. */
+static void pitches_round_nyquist_are_stable_or_silent(void** state) {
   (void)state;
-  Random random = random_start();
-  double worst = 0.0;
-  double worst_step = 0.0;
-  for (motion.n = 1; motion.n <= 24; ++motion.n) {
-    double stiffness[24 * 24];
-    double damping[24 * 24];
-    double before[24];
-    double x[24];
-    const StringCoefs coefs = {.k1 = random_between(&random, 0.1, 0.5),
-                               .k2 = random_between(&random, 0.0, 0.1),
-                               .z0 = random_between(&random, 0.0, 0.1),
-                               .z1 = random_between(&random, 0.0, 0.1),
-                               .k3 = random_between(&random, 0.0, 0.01)};
-    oracle_forces(coefs, motion.n, stiffness, damping);
-    for (uint32_t i = 0; i < motion.n; ++i) {
-      motion.x[i] = x[i] = random_between(&random, -1.0, 1.0);
-      motion.u[i] = before[i] = random_between(&random, -1.0, 1.0);
+  uint32_t n_cases = 0;
+  uint32_t n_silent = 0;
+  for (uint32_t r = 0; r < N_RATES; ++r) {
+    for (uint32_t key = 0; key < HARP_KEYS; ++key) {
+      for (int step = -200; step <= 50; ++step) {
+        const double f0_hz = 0.5 * rates_hz[r] * (1.0 + 1e-4 * step);
+        Case c = {
+            .rate_hz = rates_hz[r], .key = key, .setting = corner((uint32_t)(step + 200) * 7)};
+        double* const tuning_hz = &c.setting.value[SETTING_TUNING];
+        *tuning_hz = f0_hz / exp2((key - 69.0) / 12.0);
+        if (*tuning_hz >= settings_on_way(SETTING_TUNING, 0.0) &&
+            *tuning_hz <= settings_on_way(SETTING_TUNING, 1.0)) {
+          check_margins(&c);
+          n_silent += !c.string.is_awake;
+          ++n_cases;
+        }
+      }
     }
-    const double drag = oracle_loss(damping, motion.n, before, before);
-    const double first = motion_energy(&motion, coefs);
-    const double dense = oracle_energy(stiffness, motion.n, x, before) - 0.25 * drag;
-    motion_step(&motion, coefs);
-    oracle_step(coefs, motion.n, x, before);
-    worst = fmax(worst, fabs(first - dense));
-    for (uint32_t i = 0; i < motion.n; ++i) {
-      worst_step = fmax(worst_step, fabs(x[i] - motion.x[i]) + fabs(before[i] - motion.u[i]));
-    }
-    assert_true(motion_energy(&motion, coefs) < first);
   }
-  assert_within("energy", worst, 1e-13);
-  assert_within("step", worst_step, 1e-14);
+  print_message("  %u strings, %u of them silent\n", n_cases, n_silent);
+  assert_true(n_silent > 100 && n_silent < n_cases - 100);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(energy_is_the_quadratic_form),
       cmocka_unit_test(every_corner_has_its_margin),
+      cmocka_unit_test(pitches_round_nyquist_are_stable_or_silent),
       cmocka_unit_test(no_string_gains_energy),
       cmocka_unit_test(undamped_string_keeps_its_energy),
   };
