@@ -131,7 +131,7 @@ static Status write_loss(FILE* data) {
   "unset key\n"                                                                                    \
   "set lmargin at screen 0.10\n"                                                                   \
   "set rmargin at screen 0.41\n"                                                                   \
-  "set cbrange [1e-4:1]\n"                                                                         \
+  "set cbrange [1e-3:1]\n"                                                                         \
   "set format cb '10^{%T}'\n"                                                                      \
   "set title 'margin  1 − max (a_k + 2 g_k)/4'\n"                                                \
   "plot [-0.5:127.5][" range "] data index 'map' using 1:(log10($2)):3 with image\n"               \
@@ -152,7 +152,7 @@ static const char loss_script[] = MAPS("loss s", "-5:0");
 
 static const char EQUATION[] =
     "1 − max (a_k + 2 g_k)/4 over the modes, by (33) of each; the masses are the most, up to the "
-    "port's 256, that leave 1e-4 of it";
+    "port's 256, that leave 1e-3 of it";
 
 static const char SOURCE[] =
     "None: this map is Hooke's own, of its strings at 48 kHz with every other port at its default.";
@@ -160,7 +160,7 @@ static const char SOURCE[] =
 const Figure figure_margin[2] = {
     {.number = 31,
      .title = "Margin of stability and masses, by key and stiffness",
-     .shows = "Nothing is unstable anywhere: the least margin in the map is 1.0e-4, which is what "
+     .shows = "Nothing is unstable anywhere: the least margin in the map is 1.0e-3, which is what "
               "is left for rounding.  Left: the plain at low keys is where the port's masses, not "
               "stability, are the limit.  Elsewhere a string takes all the masses that it can have "
               "and its margin is what one more would have cost, so it is of chance, and larger the "
@@ -173,7 +173,7 @@ const Figure figure_margin[2] = {
     {.number = 32,
      .title = "Margin of stability and masses, by key and loss",
      .shows = "The same over the share of the damping that sits between the masses.  Nothing is "
-              "unstable anywhere; the least margin is 1.1e-4.  At the default damping loss costs "
+              "unstable anywhere; the least margin is 1.0e-3.  At the default damping loss costs "
               "next to no masses, at most nine in a hundred and that at G2: it is the pitch that "
               "limits them.",
      .equation = EQUATION,
