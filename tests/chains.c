@@ -42,11 +42,13 @@ StringCoefs chains_rounded(StringCoefs coefs) {
 }
 
 StringCoefs chains_seen(const Chain* chain) {
+  StringCoefs whole = chains_rounded(chain->whole);
+  whole.k1 = chain->whole.k1;
   switch (chain->numbers) {
   case CHAIN_DOUBLE:
     return chain->now;
   case CHAIN_FIXED:
-    return chains_rounded(chain->whole);
+    return whole;
   default:
     return chains_rounded(chain->now);
   }

@@ -137,6 +137,7 @@ static const StringCoefs strings[] = {
     {.k1 = 0.5, .z0 = 1e-7, .z1 = 1e-6},
     {.k1 = 0.02, .z0 = 1e-8},
     {.k1 = 0.2, .k2 = 0.19, .z0 = 1e-7},
+    {.k1 = 0.1, .k2 = 1e-3, .z0 = 1e-7},
     {.k1 = 0.002, .k2 = 0.2, .z0 = 1e-7},
     {.k1 = 0.9, .k2 = -0.15, .z0 = 1e-7},
     {.k1 = 0.3, .k2 = 0.07, .k3 = 0.02, .z0 = 1e-7},
@@ -194,9 +195,21 @@ static void numbers_are_full_and_never_overflow(void** state) {
   assert_true(fullest > 0.9);
 }
 
+/* Near the limit the uppermost modes alone could move fast, and a fundamental has none of them. */
+static void a_fundamental_fills_the_numbers_of_a_string_at_its_limit(void** state) {
+  (void)state;
+  Shape shape;
+  make_shape(WAVE, MOST, 0, &shape);
+  const StringCoefs edge = near_limit(strings[0], MOST, 1e-4);
+  const double found = worst_from(chain_kernel(0), edge, MOST, &shape);
+  print_message("  %g of what is allowed\n", found);
+  assert_true(found > 0.4);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(numbers_are_full_and_never_overflow),
+      cmocka_unit_test(a_fundamental_fills_the_numbers_of_a_string_at_its_limit),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

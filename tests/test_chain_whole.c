@@ -155,10 +155,34 @@ static void what_cannot_be_had_is_refused(void** state) {
       chain_whole_design((StringCoefs){.k1 = 0.5, .k2 = -0.11, .z0 = 1e-6}, 20, some, &whole));
 }
 
+/* A link errs by its dither and its rounding, 0.41 of a number, and by 0.41 of its last place,
+ * which is most of it on a short string; that many, at random, in the time in which a mode forgets.
+ */
+static void noise_is_that_of_dither_and_last_places(void** state) {
+  (void)state;
+  double most_places = 0.0;
+  for (uint32_t n = 1; n <= 300; n = 1 + 2 * n) {
+    const StringCoefs coefs = {.k1 = 0.7, .z0 = 1e-6};
+    const double length = n + 1.0;
+    const double a1 = 0.7 * tuning_lambda(n, 1);
+    /* The fundamental alone, of size 1, at its largest. */
+    const ChainSums sums = {.xx = 0.5 * length, .slope = 0.5 * length * a1 / 0.7};
+    ChainWhole whole;
+    assert_true(chain_whole_design(coefs, n, sums, &whole));
+    const double place = ldexp(0.7 * sqrt(0.5 * a1 / 0.7), -24);
+    const double error = 0.41 * sqrt(whole.gain * whole.gain + place * place);
+    const double noise = error * sqrt(2.0 / (length * 0.7 * 1e-6));
+    assert_true(fabs(whole.noise / noise - 1.0) < 1e-3);
+    most_places = fmax(most_places, place / whole.gain);
+  }
+  assert_true(most_places > 3.0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(modes_without_air_are_the_same),
       cmocka_unit_test(air_is_left_out_until_it_is_heard),
+      cmocka_unit_test(noise_is_that_of_dither_and_last_places),
       cmocka_unit_test(what_cannot_be_had_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
