@@ -81,7 +81,6 @@ run(const ChainWork* works, uint32_t n_works, uint32_t n_frames, float* const* o
   Strand strands[CHAIN_MAX_BATCH];
   for (uint32_t w = 0; w < n_works; ++w) {
     strands[w] = strand_of(&works[w]);
-    split_k1(&strands[w]);
   }
   for (uint32_t n = 0; n < n_frames; ++n) {
     for (uint32_t w = 0; w < n_works; ++w) {

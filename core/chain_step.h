@@ -44,8 +44,6 @@ typedef struct {
   Coefs now;
   double gain;
   uint32_t chance;
-  Real k1[2];        /* CHAIN_LOOP_IS_FIXED: the numbers below and above k1 */
-  uint32_t k1_share; /* How often it is the second, of 2²⁴ */
 } Strand;
 
 enum { MAX_CELLS = CHAIN_MAX_MASSES / CHAIN_LOOP_LANES };
@@ -62,24 +60,11 @@ INLINE Vector number(RealVector v) {
   return CHAIN_LOOP_WHOLE(v);
 }
 
-/* Where the dither of this step begins: anywhere, by a generator of full period.  And what k1 is in
-   it, for in the mean it must be exact: of two floats beside it now the one, now the other. */
+/* Where the dither of this step begins: anywhere, by a generator of full period. */
 INLINE const RealVector* dither_of(Strand* strand) {
   enum { PERIOD = CHAIN_DITHER_PERIOD * CHAIN_MAX_LANES / CHAIN_LOOP_LANES };
-  const uint32_t chance = strand->chance * 1664525u + 1013904223u;
-  strand->chance = chance;
-  strand->now.k1 = strand->k1[(chance & 0xFFFFFFu) < strand->k1_share];
-  return (const RealVector*)chain_dither + (chance >> 8) / ((1u << 24) / PERIOD);
-}
-
-INLINE void split_k1(Strand* strand) {
-  const double k1 = strand->wide.k1;
-  const double near = (double)(Real)k1;
-  const double step = (k1 < near ? -0x1p-23 : 0x1p-23) * near;
-  const double other = (double)(Real)(near + step);
-  strand->k1[0] = (Real)near;
-  strand->k1[1] = (Real)other;
-  strand->k1_share = (uint32_t)(0x1p24 * (k1 - near) / (other - near));
+  strand->chance = strand->chance * 1664525u + 1013904223u;
+  return (const RealVector*)chain_dither + (strand->chance >> 8) / ((1u << 24) / PERIOD);
 }
 #else
 INLINE RealVector real(Vector v) {
@@ -93,10 +78,6 @@ INLINE Vector number(RealVector v) {
 INLINE const RealVector* dither_of(Strand* strand) {
   (void)strand;
   return NULL;
-}
-
-INLINE void split_k1(Strand* strand) {
-  (void)strand;
 }
 #endif
 
