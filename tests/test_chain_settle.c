@@ -194,6 +194,24 @@ static void numbers_that_have_shrunk_are_scaled_anew(void** state) {
   assert_true(n_scaled >= 3 && n_scaled <= 8);
 }
 
+/* Nothing does this to a string that is left alone; it is the last fence before an overflow. */
+static void numbers_that_have_grown_are_scaled_anew(void** state) {
+  (void)state;
+  Chain chain;
+  start(&chain, 0, 30, weak, 1.0);
+  assert_true(chain_hold(&chain, CHAIN_FIXED));
+  const double gain = chain.gain;
+  for (size_t m = 0; m < chains_n_numbers(&chain); ++m) {
+    int32_t* const number = (int32_t*)chain.cells + m;
+    *number += *number / 2;
+  }
+  const double full = largest(&chain);
+  chain_settle(&chain);
+  assert_int_equal(chain.numbers, CHAIN_FIXED);
+  assert_true(fabs(chain.gain / gain - 1.5) < 1e-5);
+  assert_true(fabs(largest(&chain) / full - 1.0 / 1.5) < 1e-5);
+}
+
 typedef enum { SET, PUSH, PLACE, GLIDE, GLIDE_AT_ONCE, N_TOUCHES } Touch;
 
 static void touching_leaves_whole_numbers_in_motion(void** state) {
@@ -248,6 +266,7 @@ int main(void) {
       cmocka_unit_test(noise_decides),
       cmocka_unit_test(gliding_chains_stay_as_they_are),
       cmocka_unit_test(numbers_that_have_shrunk_are_scaled_anew),
+      cmocka_unit_test(numbers_that_have_grown_are_scaled_anew),
       cmocka_unit_test(touching_leaves_whole_numbers_in_motion),
       cmocka_unit_test(touching_leaves_doubles_as_they_are),
   };

@@ -51,7 +51,7 @@ static void check_map(unsigned number, SettingName name) {
     double margin = 0.0;
     if (sscanf(line, "%u %lf %lf %u", &key, &setting.value[name], &margin, &n_masses) == 4) {
       worst = fmax(worst, fabs(margin / margin_of(setting, key, n_masses) - 1.0));
-      const double more = n_masses < 256 ? margin_of(setting, key, n_masses + 1) : 0.0;
+      const double more = n_masses < 128 ? margin_of(setting, key, n_masses + 1) : 0.0;
       assert_true(margin >= TUNING_MARGIN && more < TUNING_MARGIN);
       least = fmin(least, margin);
       ++n_rows;

@@ -174,6 +174,8 @@ static void a_port_set_from_end_to_end_does_not_click(void** state) {
 /* Every block another value, as automation arrives; energy has nowhere to come from but tuning. */
 static void check_sweep(const char* symbol, double low, double high) {
   Host* const host = strings_open(RATE, BLOCK);
+  strings_set(host, "partials", 1.0);
+  strings_set(host, "masses", 256.0);
   Sound still = play_change(host, BLOCK, symbol, low, low);
   Sound swept = sound_new(N_FRAMES);
   const double peak = measure_peak(still.left, N_FRAMES);

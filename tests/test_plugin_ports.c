@@ -67,13 +67,13 @@ static const Port pinned[] = {
     {"spread", IN, VALUE, NULL, 0, 0.0f, 0.5f, 0.1f},
     {"pluck", IN, VALUE, NULL, 0, 0.0f, 1.0f, 0.13f},
     {"hardness", IN, VALUE, NULL, 0, 0.0f, 1.0f, 0.5f},
-    {"masses", IN, VALUE, NULL, INTEGER | EXPENSIVE | NOT_AUTOMATIC, 1.0f, 1024.0f, 256.0f},
+    {"masses", IN, VALUE, NULL, INTEGER | EXPENSIVE | NOT_AUTOMATIC, 1.0f, 1024.0f, 128.0f},
     {"release", IN, VALUE, NULL, LOGARITHMIC, 0.005f, 10.0f, 0.1f},
     {"tuning", IN, VALUE, NULL, 0, 400.0f, 480.0f, 440.0f},
     {"sounding", OUT, VALUE, NULL, INTEGER, 0.0f, 128.0f, 0.0f},
     {"mass_count", OUT, VALUE, NULL, INTEGER, 0.0f, 131072.0f, 0.0f},
     {"headroom", OUT, VALUE, NULL, 0, 0.0f, 1.0f, 1.0f},
-    {"partials", IN, VALUE, NULL, INTEGER | ENUMERATION, 0.0f, 2.0f, 1.0f},
+    {"partials", IN, VALUE, NULL, INTEGER | ENUMERATION, 0.0f, 2.0f, 2.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };

@@ -16,14 +16,14 @@ static const Patch untouched = {
     .damping_per_s = 0.6,
     .tracking = 0.5,
     .loss = 0.01,
-    .partials = PARTIALS_TRUE,
+    .partials = PARTIALS_TRUEST,
     .pickup = 0.2,
     .spread = 0.1,
     .pluck = 0.13,
     .hardness = 0.5,
     .release_s = 0.1,
     .tuning_hz = 440.0,
-    .max_masses = 256,
+    .max_masses = 128,
 };
 
 /* A patch with one of its values somewhere on its way. */
@@ -80,7 +80,7 @@ static uint32_t first_below(const Patch* patch, uint32_t level, void* memory) {
 }
 
 static void write_levels(FILE* data, PatchAt patch_at, double (*value_at)(double), void* memory) {
-  figure_block(data, "levels: key where masses fall below 256, 128, ... 2, value");
+  figure_block(data, "levels: key where masses fall below 128, 64, ... 2, value");
   for (uint32_t level = untouched.max_masses; level > 1; level /= 2) {
     for (uint32_t row = 0; row < N_ROWS; ++row) {
       const double way = row / (N_ROWS - 1.0);
@@ -137,8 +137,8 @@ static Status write_loss(FILE* data) {
   "plot [-0.5:127.5][" range "] data index 'map' using 1:(log10($2)):3 with image\n"               \
   "set lmargin at screen 0.60\n"                                                                   \
   "set rmargin at screen 0.91\n"                                                                   \
-  "set cbrange [1:256]\n"                                                                          \
-  "set cbtics (1, 2, 4, 8, 16, 32, 64, 128, 256)\n"                                                \
+  "set cbrange [1:128]\n"                                                                          \
+  "set cbtics (1, 2, 4, 8, 16, 32, 64, 128)\n"                                                \
   "set format cb '%g'\n"                                                                           \
   "set title 'masses'\n"                                                                           \
   "plot [-0.5:127.5][" range "] data index 'map' using 1:(log10($2)):4 with image, \\\n"           \
@@ -152,7 +152,7 @@ static const char loss_script[] = MAPS("loss s", "-5:0");
 
 static const char EQUATION[] =
     "1 − max (a_k + 2 g_k)/4 over the modes, by (33) of each; the masses are the most, up to the "
-    "port's 256, that leave 1e-3 of it";
+    "port's 128, that leave 1e-3 of it";
 
 static const char SOURCE[] =
     "None: this map is Hooke's own, of its strings at 48 kHz with every other port at its default.";
@@ -164,7 +164,7 @@ const Figure figure_margin[2] = {
               "is left for rounding.  Left: the plain at low keys is where the port's masses, not "
               "stability, are the limit.  Elsewhere a string takes all the masses that it can have "
               "and its margin is what one more would have cost, so it is of chance, and larger the "
-              "fewer they are.  Right: what stiffness costs.  Along each line the masses are 256, "
+              "fewer they are.  Right: what stiffness costs.  Along each line the masses are 128, "
               "128, 64 and so on to 2.  A4 has 53 when it is flexible and 15 at the stiffest.",
      .equation = EQUATION,
      .source = SOURCE,

@@ -73,7 +73,7 @@ static void write_paragraph(FILE* out, const char* text, bool is_html) {
 
 static void write_words(FILE* out, const TradeReport* report, bool is_html) {
   const TradeSetting best = trade_words_best(&report->survey);
-  const TradeSetting settings[] = {{PARTIALS_TRUE, TRADE_DEFAULT_MASSES}, best};
+  const TradeSetting settings[] = {{TRADE_DEFAULT_PARTIALS, TRADE_DEFAULT_MASSES}, best};
   char text[TRADE_TEXT_SIZE];
   trade_words_method(&report->survey, text);
   write_paragraph(out, text, is_html);

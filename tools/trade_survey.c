@@ -7,7 +7,8 @@
 
 /* Half an octave from one to the next, and what the plugin has; then the most that are stable. */
 static const uint32_t counts[] = {
-    4, 5, 7, 10, 14, 20, 28, 40, 57, 80, 113, 160, 226, TRADE_DEFAULT_MASSES, 320, 453, 640, 905};
+    4,   5,   7,   10,  14,  20,  28, 40, 57, 80, 113, TRADE_DEFAULT_MASSES,
+    160, 226, 256, 320, 453, 640, 905};
 enum { N_COUNTS = sizeof(counts) / sizeof(counts[0]) };
 
 /* Clocks, by what takes the same time. */
@@ -35,7 +36,7 @@ static bool can_have(TradeMethod method, TradeString string) {
 }
 
 static bool is_default(TradeMethod method, TradeString string, uint32_t n, uint32_t most) {
-  return method.kind == TRADE_CHAIN && method.partials == PARTIALS_TRUE &&
+  return method.kind == TRADE_CHAIN && method.partials == TRADE_DEFAULT_PARTIALS &&
          method.numbers == CHAIN_FIXED && method.is_corrected &&
          string.rate_hz == TRADE_DEFAULT_RATE_HZ &&
          n == (most < TRADE_DEFAULT_MASSES ? most : TRADE_DEFAULT_MASSES);

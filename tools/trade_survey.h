@@ -55,7 +55,8 @@ typedef struct {
 } TradeSurvey;
 
 /** What the plugin makes as it comes, at 48 kHz. */
-#define TRADE_DEFAULT_MASSES 256
+#define TRADE_DEFAULT_MASSES 128
+#define TRADE_DEFAULT_PARTIALS PARTIALS_TRUEST
 #define TRADE_DEFAULT_RATE_HZ 48000.0
 
 /** The strings: 55, 110, 440 and 1760 Hz, with B = 0 and 1e-4, at five rates. */

@@ -14,7 +14,7 @@ static const double TRUE_CENTS = 5.0;
 
 enum { AT_48_KHZ = 2, N_JUDGED = 3, LOWEST = 0 };
 
-static const TradeSetting present = {PARTIALS_TRUE, TRADE_DEFAULT_MASSES};
+static const TradeSetting present = {TRADE_DEFAULT_PARTIALS, TRADE_DEFAULT_MASSES};
 
 static const char* const partials_names[] = {"Lumped", "True", "Truest"};
 
