@@ -40,8 +40,9 @@ Patch ports_patch(const Controls* controls) {
       .level = pow(10.0, (double)v[PORT_LEVEL] / 20.0),
       .damping_per_s = (double)v[PORT_DAMPING],
       .tracking = (double)v[PORT_TRACKING],
-      .loss = (double)v[PORT_LOSS],
-      /* At its minimum the string is perfectly flexible. */
+      /* At its minimum there is nothing between the masses, and at that of stiffness the string is
+       * perfectly flexible: what is not there is not computed. */
+      .loss = v[PORT_LOSS] > 1e-5f ? (double)v[PORT_LOSS] : 0.0,
       .inharmonicity = v[PORT_STIFFNESS] > 1e-6f ? (double)v[PORT_STIFFNESS] : 0.0,
       .partials = (Partials)(v[PORT_PARTIALS] + 0.5f),
       .pickup = (double)v[PORT_PICKUP],

@@ -63,12 +63,13 @@ Setting settings_random(Random* random) {
 
 Patch settings_patch(const Setting* setting) {
   const double* const v = setting->value;
+  const bool is_lossless = v[SETTING_LOSS] <= ranges[PORT_LOSS].minimum;
   const bool is_flexible = v[SETTING_STIFFNESS] <= ranges[PORT_STIFFNESS].minimum;
   return (Patch){
       .level = 1.0,
       .damping_per_s = v[SETTING_DAMPING],
       .tracking = v[SETTING_TRACKING],
-      .loss = v[SETTING_LOSS],
+      .loss = is_lossless ? 0.0 : v[SETTING_LOSS],
       .inharmonicity = is_flexible ? 0.0 : v[SETTING_STIFFNESS],
       .partials = (Partials)lround(v[SETTING_PARTIALS]),
       .pickup = ranges[PORT_PICKUP].default_value,

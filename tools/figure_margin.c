@@ -138,7 +138,7 @@ static Status write_loss(FILE* data) {
   "set lmargin at screen 0.60\n"                                                                   \
   "set rmargin at screen 0.91\n"                                                                   \
   "set cbrange [1:128]\n"                                                                          \
-  "set cbtics (1, 2, 4, 8, 16, 32, 64, 128)\n"                                                \
+  "set cbtics (1, 2, 4, 8, 16, 32, 64, 128)\n"                                                     \
   "set format cb '%g'\n"                                                                           \
   "set title 'masses'\n"                                                                           \
   "plot [-0.5:127.5][" range "] data index 'map' using 1:(log10($2)):4 with image, \\\n"           \
