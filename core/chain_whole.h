@@ -42,7 +42,7 @@ typedef struct {
 
    @param[out] whole  Untouched on failure
    @return false where it cannot be had: no motion, no damping, damped so much that its partials
-   would shift by more than 0.01 cent, or bending so negative that it hardly pulls back
+   would shift by more than about 0.01 cent, or bending so negative that it hardly pulls back
 */
 bool chain_whole_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, ChainWhole* whole);
 
