@@ -176,7 +176,7 @@ uint32_t tuning_max_masses(const TuningTarget* target, uint32_t limit) {
   uint32_t low = 0;
   uint32_t high = limit;
   while (low < high) {
-    const uint32_t middle = low + (high - low + 1) / 2;
+    const uint32_t middle = high - (high - low) / 2;
     Design design;
     if (!design_init(&design, target, middle) && design_is_safe(&design)) {
       low = middle;

@@ -67,6 +67,7 @@ static void largest_strings_are_those_of_the_table(void** state) {
       const uint32_t truth = most_masses(&target, MOST_MASSES, 0.0, 0.0);
       const uint32_t found = tuning_max_masses(&target, MOST_MASSES);
       assert_int_equal(truth, rows[row].n_masses[octave]);
+      assert_int_equal(found, tuning_max_masses(&target, UINT32_MAX));
       assert_int_equal(found, most_masses(&target, MOST_MASSES, TUNING_MARGIN, TUNING_LAST_MARGIN));
       assert_true(found == truth || found + 1 == truth);
       if (truth < MOST_DENSE) {
