@@ -67,7 +67,7 @@ def options(opt):
     opt.add_option('--werror', action='store_true', help='configure: let a warning fail the build')
     opt.add_option('--long', action='store_true', help='test: run the long versions of the tests as well')
     opt.add_option('--only', default='', metavar='WORD', help='test: run the programs with WORD in their name')
-    opt.add_option('--timeout', type=int, default=600, metavar='S', help='test: allow each program S seconds [600]')
+    opt.add_option('--timeout', type=int, metavar='S', help='test: allow each program S seconds [600, or 3600 if --long]')
 
 
 def configure(conf):
@@ -309,7 +309,8 @@ def run_environment(bld):
 
 def run_tests(bld):
     programs = test_programs(bld)
-    results = runner.run_all(programs, bld.bldnode.abspath(), run_environment(bld), bld.jobs, bld.options.timeout)
+    timeout = bld.options.timeout or (3600 if bld.options.long else 600)
+    results = runner.run_all(programs, bld.bldnode.abspath(), run_environment(bld), bld.jobs, timeout)
     failed = [result['name'] for result in results if result['counts']['FAILED']]
     if failed:
         bld.fatal('failed: ' + ' '.join(failed))
