@@ -67,7 +67,7 @@ def options(opt):
     opt.add_option('--werror', action='store_true', help='configure: let a warning fail the build')
     opt.add_option('--long', action='store_true', help='test: run the long versions of the tests as well')
     opt.add_option('--only', default='', metavar='WORD', help='test: run the programs with WORD in their name')
-    opt.add_option('--timeout', type=int, metavar='S', help='test: allow each program S seconds [600, or 3600 if --long]')
+    opt.add_option('--timeout', type=int, metavar='S', help='test: let each program take S seconds [600; --long: 3600]')
 
 
 def configure(conf):
