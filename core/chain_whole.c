@@ -37,16 +37,16 @@ static StringCoefs without_air(StringCoefs coefs, uint32_t n_masses, double fade
 }
 
 /*
-  The largest that any number can become.  With y = x − u/2 the scheme's energy is
+  The largest that any number can become.  With y = x − u/2 and the dampers Z = z1 L,
 
-      2E = yᵀ K y + uᵀ (1 − K/4) u,
+      2H = yᵀ K y + uᵀ (1 − K/4 − Z/2) u
 
-  and so is that of L y and L u, which each mode has λ² times as much of.  A mode loses of either
-  what the other does, so neither ever grows.  Then, k being the least pull,
+  falls in every step (without dampers it is the scheme's energy, and stays), and so does that of
+  L y and L u, of which each mode has λ² times as much.  Then, k being the least pull,
 
-      (Δy)² ≤ 2E/k  everywhere, and since (L⁻¹)_ii ≤ (N + 1)/4,  y² ≤ 2E (N + 1)/(4k).
+      (Δy)² ≤ 2H/k  everywhere, and since (L⁻¹)_ii ≤ (N + 1)/4,  y² ≤ 2H (N + 1)/(4k).
 
-  |u|² ≤ 2E/headroom would do, but near the limit there is little headroom, and that only in modes
+  |u|² ≤ 2H/headroom would do, but near the limit there is little headroom, and that only in modes
   which have little of the energy: above λ = 2 there is at most a quarter of L u's.
 */
 static double largest(StringCoefs c, uint32_t n_masses, ChainSums sums) {
@@ -56,7 +56,7 @@ static double largest(StringCoefs c, uint32_t n_masses, ChainSums sums) {
   const double energy = stiffest * sums.slope + sums.uu;
   const double energy_of_bow = stiffest * sums.twist + sums.bow;
   const double headroom = tuning_headroom(c, n_masses);
-  const double headroom_below = 1.0 - 0.25 * middle * stiffest;
+  const double headroom_below = 1.0 - middle * (0.25 * stiffest + 0.5 * c.z1);
   const double above = fmin(energy, energy_of_bow / (middle * middle));
   const double u_split = sqrt(energy / positive(headroom_below)) + sqrt(above / headroom);
   const double u = fmin(sqrt(energy / headroom), u_split);

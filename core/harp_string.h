@@ -35,7 +35,7 @@ typedef struct {
   double loudest;            /**< Largest displacement seen since it was last plucked */
   uint32_t n_choked;         /**< Frames in which it has been choked */
   uint32_t n_strung;         /**< Masses that it was strung with; a bend may have left it fewer */
-  uint32_t n_until_doze;     /**< Frames until it is next looked at, see harp_string_doze() */
+  uint32_t n_until_doze;     /**< Frames until it is next looked at, see harp_string_pass() */
   bool is_awake;             /**< Whether it moves */
   Damper damper;
 } HarpString;
@@ -75,7 +75,7 @@ void harp_string_pluck(
 void harp_string_retune(
     HarpString* string, const Patch* patch, double bend_semitones, Damper damper, uint32_t n_glide);
 
-/** Frames that it can be run until harp_string_doze() is due. */
+/** Frames that it can be run until harp_string_pass() must be told. */
 uint32_t harp_string_stretch(const HarpString* string);
 
 /**

@@ -13,16 +13,16 @@
 
 #include <stdint.h>
 
+enum { REMESH_REACH = 8 };
+
 /**
    Give a chain `n_masses` instead, its shape and velocity kept, but for what the fewer masses
    cannot carry.  Positions are interpolated with a windowed sinc of REMESH_REACH zero crossings to
    a side, and mirrored, upside down, in the walls.  The coefficients are the caller's to set: they
-   are 0 after.  Takes the time of about 16 steps of a string of the more masses for each of them.
+   are 0 after.  Reads 2 REMESH_REACH masses for each of the more.
 
    @param n_masses  1 to as many as the chain's memory holds
 */
 void remesh(Chain* chain, uint32_t n_masses);
-
-enum { REMESH_REACH = 8 };
 
 #endif
