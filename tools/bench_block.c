@@ -22,7 +22,7 @@ enum {
   SECOND = 752, /* Blocks: strings are looked at every 16 blocks, and so at the same ones in
                    each second */
   N_TIMES = 12,
-  N_SECONDS = 4,
+  N_SECONDS = 12,
   PLAY_S = 60,
 };
 
