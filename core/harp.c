@@ -7,11 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a gesture (a damper falling, the wheel) takes [s], and the fewest steps: a string must have
- * the time to follow it, whatever the rate, or gestures would pump it. */
-static const double GESTURE_S = 0.004;
-enum { GESTURE_FRAMES = 192 };
-
 /* How much harder the hardest velocity plucks than the one where the patch's hardness is what it
  * says. */
 static const double VELOCITY_HARDNESS = 0.25;
@@ -29,14 +24,14 @@ static HarpPlaces places_of(const Patch* patch) {
 static uint32_t gather(Harp* harp, const HarpReading* reading) {
   uint32_t n_parts = 0;
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    HarpString* const string = &harp->strings[key];
-    if (string->is_awake) {
+    Wire* const wire = &harp->strings[key].wire;
+    if (wire->is_awake) {
       ChainPart* const part = &harp->parts[n_parts];
-      part->chain = &string->chain;
+      part->chain = &wire->chain;
       for (uint32_t t = 0; t < reading->n_taps; ++t) {
-        part->taps[t] = pickup_tap(string->chain.n_masses, reading->place[t]);
+        part->taps[t] = pickup_tap(wire->chain.n_masses, reading->place[t]);
       }
-      harp->awake[n_parts++] = string;
+      harp->awake[n_parts++] = wire;
     }
   }
   return n_parts;
@@ -73,22 +68,17 @@ static uint32_t stretch(const Harp* harp, uint32_t n_frames) {
   return n_left > 0 ? least(n, n_left) : n;
 }
 
-/* Frames that a string can be run in one go. */
-static uint32_t stretch_of(const HarpString* string) {
-  return least(chain_stretch(&string->chain), harp_string_stretch(string));
-}
-
 /* Run a string that something happens to on the way. */
-static void run_in_pieces(
-    HarpString* string, const ChainPart* part, uint32_t n_frames, uint32_t n_taps, float** out) {
-  for (uint32_t done = 0; done < n_frames && string->is_awake;) {
-    const uint32_t n = least(n_frames - done, stretch_of(string));
+static void
+run_in_pieces(Wire* wire, const ChainPart* part, uint32_t n_frames, uint32_t n_taps, float** out) {
+  for (uint32_t done = 0; done < n_frames && wire->is_awake;) {
+    const uint32_t n = least(n_frames - done, wire_stretch(wire));
     float* rest[CHAIN_MAX_TAPS];
     for (uint32_t t = 0; t < n_taps; ++t) {
       rest[t] = out[t] + done;
     }
     chain_run_all(part, 1, n, n_taps, rest);
-    harp_string_pass(string, n);
+    wire_pass(wire, n);
     done += n;
   }
 }
@@ -98,12 +88,12 @@ static void
 run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps, float** out) {
   uint32_t first = 0;
   for (uint32_t i = 0; i <= n_parts; ++i) {
-    if (i < n_parts && stretch_of(harp->awake[i]) > n_frames) {
+    if (i < n_parts && wire_stretch(harp->awake[i]) > n_frames) {
       continue;
     }
     chain_run_all(&harp->parts[first], i - first, n_frames, n_taps, out);
     for (; first < i; ++first) {
-      harp_string_pass(harp->awake[first], n_frames);
+      wire_pass(harp->awake[first], n_frames);
     }
     if (i < n_parts) {
       run_in_pieces(harp->awake[i], &harp->parts[i], n_frames, n_taps, out);
@@ -132,7 +122,7 @@ static Damper damper_of(const Harp* harp, uint32_t key) {
 
 static void retune(Harp* harp, uint32_t key, uint32_t n_glide) {
   HarpString* const string = &harp->strings[key];
-  if (string->is_awake && string->damper != DAMPER_CHOKING) {
+  if (string->wire.is_awake && string->damper != DAMPER_CHOKING) {
     harp_string_retune(string, &harp->patch, harp->bend_semitones, damper_of(harp, key), n_glide);
   }
 }
@@ -163,7 +153,7 @@ Harp* harp_new(double rate_hz) {
     return NULL;
   }
   harp->rate_hz = rate_hz;
-  harp->n_gesture = (uint32_t)fmax(GESTURE_FRAMES, round(GESTURE_S * rate_hz));
+  harp->n_gesture = wire_gesture_frames(rate_hz);
   const size_t size = lay_out(harp, NULL) + chain_size(1);
   harp->memory = aligned_alloc(CHAIN_ALIGNMENT, size);
   if (!harp->memory) {
@@ -184,7 +174,7 @@ void harp_free(Harp* harp) {
 
 void harp_reset(Harp* harp) {
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    harp_string_sleep(&harp->strings[key]);
+    wire_sleep(&harp->strings[key].wire);
     harp->keys[key] = (HarpKey){0};
   }
   harp->is_pedal_down = false;
@@ -264,7 +254,7 @@ void harp_all_sound_off(Harp* harp) {
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
     HarpString* const string = &harp->strings[key];
     harp->keys[key] = (HarpKey){0};
-    if (string->is_awake) {
+    if (string->wire.is_awake) {
       harp_string_retune(string, &harp->patch, harp->bend_semitones, DAMPER_CHOKING,
                          harp->n_gesture);
     }
@@ -281,11 +271,11 @@ void harp_run(Harp* harp, uint32_t n_frames, float* left, float* right) {
 HarpReport harp_report(const Harp* harp) {
   HarpReport report = {.headroom = 1.0};
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    const HarpString* const string = &harp->strings[key];
-    if (string->is_awake) {
+    const Wire* const wire = &harp->strings[key].wire;
+    if (wire->is_awake) {
       ++report.n_strings;
-      report.n_masses += string->chain.n_masses;
-      report.headroom = fmin(report.headroom, string->headroom);
+      report.n_masses += wire->chain.n_masses;
+      report.headroom = fmin(report.headroom, wire->headroom);
     }
   }
   return report;

@@ -56,9 +56,9 @@ typedef struct {
   uint32_t n_fade; /**< Frames that the next fade will take */
   HarpKey keys[HARP_KEYS];
   HarpString strings[HARP_KEYS];
-  void* memory;                 /**< Memory of all strings; owned */
-  HarpString* awake[HARP_KEYS]; /**< The strings awake, while they are run */
-  ChainPart parts[HARP_KEYS];   /**< Their chains, and where they are read */
+  void* memory;               /**< Memory of all strings; owned */
+  Wire* awake[HARP_KEYS];     /**< The strings awake, while they are run */
+  ChainPart parts[HARP_KEYS]; /**< Their chains, and where they are read */
   float mix[CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;
 

@@ -1,14 +1,13 @@
 /**
-   One string of the harp: a chain, the key it belongs to, and its damper.
+   One string of the harp: the key it belongs to, and its damper.
 
    Thread: one at a time; real-time safe.
 */
 #ifndef HOOKE_CORE_HARP_STRING_H
 #define HOOKE_CORE_HARP_STRING_H
 
-#include "core/chain.h"
-#include "core/exciter.h"
 #include "core/patch.h"
+#include "core/wire.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -22,21 +21,9 @@ typedef enum {
 
 /** Zero is a string that is asleep and has no memory. */
 typedef struct {
-  Chain chain;
-  const ChainKernel* kernel; /**< What steps it */
-  void* memory;              /**< Memory for `capacity` masses, the caller's */
-  uint32_t capacity;         /**< Most masses it can have */
-  uint32_t key;              /**< MIDI note number */
-  double rate_hz;            /**< Steps per second [Hz] */
-  double given;              /**< Motion that its plucks gave it: √ω times an amplitude */
-  double f0_hz;              /**< Pitch it has or is gliding to [Hz] */
-  double a1;                 /**< (ω0 h)² of its fundamental */
-  double headroom;           /**< Of its coefficients, see tuning_headroom() */
-  double loudest;            /**< Largest displacement seen since it was last plucked */
-  uint32_t n_choked;         /**< Frames in which it has been choked */
-  uint32_t n_strung;         /**< Masses that it was strung with; a bend may have left it fewer */
-  uint32_t n_until_doze;     /**< Frames until it is next looked at, see harp_string_pass() */
-  bool is_awake;             /**< Whether it moves */
+  Wire wire;
+  uint32_t key;      /**< MIDI note number */
+  uint32_t n_strung; /**< Masses that it was strung with; a bend may have left it fewer */
   Damper damper;
 } HarpString;
 
@@ -54,9 +41,6 @@ uint32_t harp_string_capacity(double rate_hz, uint32_t key, double lowest_hz);
 void harp_string_init(
     HarpString* string, double rate_hz, uint32_t key, void* memory, uint32_t capacity);
 
-/** Silence a string and set all its masses to exact zeros. */
-void harp_string_sleep(HarpString* string);
-
 /**
    Pluck a string.  From rest it is strung anew, with the largest stable number of masses up to the
    patch's; while it rings the pluck adds to its motion, its damper lifts, the coefficients take
@@ -67,22 +51,10 @@ void harp_string_pluck(
     HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide);
 
 /**
-   Bring a ringing string to the patch, bend and damper in `n_glide` frames, its motion kept.  Where
-   that would pass its limit stiffness and true partials give way (tuning_fit()); where they would
-   have to by far, the motion is moved onto fewer masses (core/remesh.h).  A pitch that cannot be
-   had at all chokes it.
+   Bring a ringing string to the patch, bend and damper in `n_glide` frames, see wire_retune().  A
+   pitch that cannot be had at all chokes it.
 */
 void harp_string_retune(
     HarpString* string, const Patch* patch, double bend_semitones, Damper damper, uint32_t n_glide);
-
-/** Frames that it can be run until harp_string_pass() must be told. */
-uint32_t harp_string_stretch(const HarpString* string);
-
-/**
-   After `n_frames`, at most its stretch: when it is due, put the string to sleep if it has died
-   away to −120 dB of its loudest, or has been choked for a while; else see that its numbers suit
-   it.
-*/
-void harp_string_pass(HarpString* string, uint32_t n_frames);
 
 #endif

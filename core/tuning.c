@@ -143,6 +143,14 @@ static bool give_way(Design* design, double* field, double least) {
   return true;
 }
 
+TuningTarget tuning_damped(TuningTarget target, double tau_s, double loss) {
+  const double before = expm1(-2.0 / (target.tone.tau_s * target.rate_hz));
+  const double after = expm1(-2.0 / (tau_s * target.rate_hz));
+  target.loss = loss + (target.loss - loss) * (before / after);
+  target.tone.tau_s = tau_s;
+  return target;
+}
+
 double tuning_lambda(uint32_t n_masses, uint32_t k) {
   const double half = sin(0.5 * PI * k / (n_masses + 1.0));
   return 4.0 * half * half;

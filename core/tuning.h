@@ -74,6 +74,16 @@ typedef struct {
   double k3; /**< What straightens the upper partials */
 } StringCoefs;
 
+/**
+   The target with more damping, of which the share `loss` sits between the masses: what was there
+   stays as it was.  With g = 1 − exp(−2/(rate τ)) before and g' after,
+
+       s' = (s g + loss (g' − g)) / g'.
+
+   @param tau_s  Of the fundamental [s], 0 < tau_s ≤ the target's
+*/
+TuningTarget tuning_damped(TuningTarget target, double tau_s, double loss);
+
 /** λ_k = 4 sin²(kπ / (2(N + 1))), the k-th eigenvalue of L; 1 ≤ k ≤ n_masses. */
 double tuning_lambda(uint32_t n_masses, uint32_t k);
 

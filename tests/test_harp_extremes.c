@@ -50,7 +50,7 @@ static bool is_long(void) {
 
 static void fail_case(const Case* c, const char* what, double value) {
   print_message("%s: %.9g, key %u at %g Hz, %u masses\n", what, value, c->key, c->rate_hz,
-                c->string.chain.n_masses);
+                c->string.wire.chain.n_masses);
   settings_print(&c->setting);
   fail();
 }
@@ -87,14 +87,14 @@ static double single_load(const Case* c) {
 
 /* The margin counted mode by mode; the harp's own word on it must not be better. */
 static double margin(const Case* c) {
-  const StringCoefs coefs = c->string.chain.goal;
-  const uint32_t n = c->string.chain.n_masses;
+  const StringCoefs coefs = c->string.wire.chain.goal;
+  const uint32_t n = c->string.wire.chain.n_masses;
   const double counted = oracle_headroom(coefs, n);
   if (!(counted >= MARGIN)) {
     fail_case(c, "margin counted mode by mode", counted);
   }
-  if (!(tuning_headroom(coefs, n) >= MARGIN) || !(c->string.headroom <= counted + 1e-12)) {
-    fail_case(c, "margin predicted", c->string.headroom);
+  if (!(tuning_headroom(coefs, n) >= MARGIN) || !(c->string.wire.headroom <= counted + 1e-12)) {
+    fail_case(c, "margin predicted", c->string.wire.headroom);
   }
   return counted;
 }
@@ -104,11 +104,11 @@ static double check_margins(Case* c) {
   static const double bends[] = {0.0, 2.0, -2.0, 24.0, -24.0};
   pluck(c);
   const double load = single_load(c);
-  if (c->string.is_awake ? load > 4.0 : load < 4.0 * (1.0 - 1.1e-4)) {
-    fail_case(c, c->string.is_awake ? "sounds past Nyquist" : "is silent, its load", load);
+  if (c->string.wire.is_awake ? load > 4.0 : load < 4.0 * (1.0 - 1.1e-4)) {
+    fail_case(c, c->string.wire.is_awake ? "sounds past Nyquist" : "is silent, its load", load);
   }
   double worst = 1.0;
-  for (int b = 0; c->string.is_awake && b < 5; ++b) {
+  for (int b = 0; c->string.wire.is_awake && b < 5; ++b) {
     worst = fmin(worst, margin(c));
     harp_string_retune(&c->string, &c->patch, bends[b], b % 2 ? DAMPER_OFF : DAMPER_ON, 0);
   }
@@ -162,25 +162,25 @@ static void run_frames(Case* c, uint32_t n_frames) {
   static float sound[DOZE];
   static const ChainTap tap = {{0, 0}, {1.0f, 0.0f}};
   float* const out[] = {sound};
-  chain_run(&c->string.chain, n_frames, &tap, 1, out);
+  chain_run(&c->string.wire.chain, n_frames, &tap, 1, out);
 }
 
 static double energy_now(const Case* c) {
-  motion_read(&c->string.chain, &motion);
-  return motion_energy(&motion, c->string.chain.goal);
+  motion_read(&c->string.wire.chain, &motion);
+  return motion_energy(&motion, c->string.wire.chain.goal);
 }
 
 /* Single steps at first, then as the harp does it. */
 static void run_case(Case* c, uint32_t n_frames, Runs* runs) {
   double least = energy_now(c);
   uint32_t done = 0;
-  while (done < n_frames && c->string.is_awake) {
-    const uint32_t n = done < LEAST_STEPS ? 1 : harp_string_stretch(&c->string);
+  while (done < n_frames && c->string.wire.is_awake) {
+    const uint32_t n = done < LEAST_STEPS ? 1 : wire_stretch(&c->string.wire);
     run_frames(c, n);
     done += n;
-    harp_string_pass(&c->string, n);
+    wire_pass(&c->string.wire, n);
     const double energy = energy_now(c);
-    if (!isfinite(energy) || !(c->string.is_awake || energy == 0.0)) {
+    if (!isfinite(energy) || !(c->string.wire.is_awake || energy == 0.0)) {
       fail_case(c, "energy", energy);
     }
     runs->gain = fmax(runs->gain, energy / least);

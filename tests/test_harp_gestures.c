@@ -144,9 +144,9 @@ static void check_strings(const Harp* harp) {
   uint32_t n_strings = 0;
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
     const HarpString* const string = &harp->strings[key];
-    if (string->is_awake) {
-      assert_true(oracle_headroom(string->chain.now, string->chain.n_masses) >= 0.0);
-      assert_true(string->chain.n_masses <= string->capacity);
+    if (string->wire.is_awake) {
+      assert_true(oracle_headroom(string->wire.chain.now, string->wire.chain.n_masses) >= 0.0);
+      assert_true(string->wire.chain.n_masses <= string->capacity);
       ++n_strings;
     }
   }
