@@ -142,7 +142,7 @@ static void every_corner_has_its_margin(void** state) {
         index = (index + STRIDE) % CORNERS;
         Case c = {.rate_hz = rates_hz[r], .key = key, .setting = corner(index)};
         worst = fmin(worst, check_margins(&c));
-        n_silent += !c.string.is_awake;
+        n_silent += !c.string.wire.is_awake;
       }
     }
   }
@@ -201,12 +201,12 @@ static void no_string_gains_energy(void** state) {
               .setting = settings_random(&random)};
     worst = fmin(worst, check_margins(&c));
     pluck(&c);
-    if (!c.string.is_awake) {
+    if (!c.string.wire.is_awake) {
       continue;
     }
     /* A second, or as much of it as there is time for; a short string costs as much as one of a
      * hundred masses. */
-    const double most = (is_long() ? 1e7 : 4e6) / (c.string.chain.n_masses + 100.0);
+    const double most = (is_long() ? 1e7 : 4e6) / (c.string.wire.chain.n_masses + 100.0);
     Runs run = {0};
     run_case(&c, (uint32_t)fmin(c.rate_hz, most), &run);
     if (!(run.gain <= 1.0 + MOST_ROUNDING)) {
@@ -231,12 +231,12 @@ static void undamped_string_keeps_its_energy(void** state) {
               .key = random_below(&random, HARP_KEYS),
               .setting = settings_random(&random)};
     pluck(&c);
-    if (!c.string.is_awake) {
+    if (!c.string.wire.is_awake) {
       continue;
     }
-    StringCoefs coefs = c.string.chain.goal;
+    StringCoefs coefs = c.string.wire.chain.goal;
     coefs.z0 = coefs.z1 = 0.0;
-    motion_read(&c.string.chain, &motion);
+    motion_read(&c.string.wire.chain, &motion);
     const double first = motion_energy(&motion, coefs);
     const uint32_t n_steps = 1000000 / (motion.n + 10);
     for (uint32_t n = 1; n <= n_steps; ++n) {
@@ -265,7 +265,7 @@ static void pitches_round_nyquist_are_stable_or_silent(void** state) {
         if (*tuning_hz >= settings_on_way(SETTING_TUNING, 0.0) &&
             *tuning_hz <= settings_on_way(SETTING_TUNING, 1.0)) {
           check_margins(&c);
-          n_silent += !c.string.is_awake;
+          n_silent += !c.string.wire.is_awake;
           ++n_cases;
         }
       }

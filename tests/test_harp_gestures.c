@@ -146,7 +146,7 @@ static void check_strings(const Harp* harp) {
     const HarpString* const string = &harp->strings[key];
     if (string->wire.is_awake) {
       assert_true(oracle_headroom(string->wire.chain.now, string->wire.chain.n_masses) >= 0.0);
-      assert_true(string->wire.chain.n_masses <= string->capacity);
+      assert_true(string->wire.chain.n_masses <= string->wire.capacity);
       ++n_strings;
     }
   }
