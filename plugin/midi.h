@@ -1,23 +1,43 @@
 /**
-   MIDI messages to the harp.
+   MIDI messages of a channel, read.
 
-   Thread: audio; real-time safe.
+   Thread: any; real-time safe.
 */
 #ifndef HOOKE_PLUGIN_MIDI_H
 #define HOOKE_PLUGIN_MIDI_H
 
-#include "core/harp.h"
-
 #include <stdint.h>
 
-/**
-   Do what one complete MIDI message says: note on and off, sustain pedal (64), all sound off (120),
-   reset controllers (121), all notes off (123 and the mode messages after it), pitch bend of ±2
-   semitones; all channels alike.  What is unknown, cut short or out of range is ignored.
+/** What a message is. */
+typedef enum {
+  MIDI_OTHER, /**< Unknown, cut short or out of range: to be ignored */
+  MIDI_NOTE_OFF,
+  MIDI_NOTE_ON,
+  MIDI_CONTROLLER,
+  MIDI_BEND,
+} MidiKind;
 
-   @param bytes     `n_bytes` of them
-   @param is_muted  Whether to ignore keys that go down
-*/
-void midi_play(Harp* harp, const uint8_t* bytes, uint32_t n_bytes, bool is_muted);
+/** Controllers. */
+enum {
+  MIDI_PEDAL = 64,
+  MIDI_ALL_SOUND_OFF = 120,
+  MIDI_RESET_CONTROLLERS = 121,
+  MIDI_ALL_NOTES_OFF = 123, /**< And the mode messages after it */
+};
+
+/** Least value of a pedal that is down. */
+enum { MIDI_DOWN = 64 };
+
+/** A message. */
+typedef struct {
+  MidiKind kind;
+  uint32_t channel; /**< From 0 */
+  uint32_t number;  /**< Of the key, or of the controller, 0 to 127 */
+  uint32_t value;   /**< Of the key's velocity, 1 to 127 if it goes down, or of the controller */
+  double bend;      /**< Of the wheel, −1 to 8191/8192 */
+} MidiMessage;
+
+/** Read one complete message of `n_bytes`.  Note on of velocity nought is note off. */
+MidiMessage midi_read(const uint8_t* bytes, uint32_t n_bytes);
 
 #endif

@@ -1,6 +1,6 @@
 #include "tests/settings.h"
 
-#include "plugin/ports.h"
+#include "plugin/strings_ports.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -15,18 +15,18 @@ typedef struct {
   double minimum, maximum, default_value;
 } Range;
 
-#define PORT_RANGE(name, symbol, index, minimum, maximum, default_value)                           \
+#define SETTING_RANGE(name, symbol, index, minimum, maximum, default_value)                        \
   [index] = {#symbol, (double)(minimum), (double)(maximum), (double)(default_value)},
-static const Range ranges[N_PORTS] = {CONTROL_PORTS(PORT_RANGE)};
-#undef PORT_RANGE
+static const Range ranges[STRINGS_N_PORTS] = {STRINGS_CONTROL_PORTS(SETTING_RANGE)};
+#undef SETTING_RANGE
 
 static const Range* range_of(SettingName name) {
   static const uint32_t ports[N_SETTINGS] = {
-      [SETTING_DAMPING] = PORT_DAMPING,   [SETTING_TRACKING] = PORT_TRACKING,
-      [SETTING_LOSS] = PORT_LOSS,         [SETTING_STIFFNESS] = PORT_STIFFNESS,
-      [SETTING_MASSES] = PORT_MASSES,     [SETTING_TUNING] = PORT_TUNING,
-      [SETTING_PARTIALS] = PORT_PARTIALS, [SETTING_RELEASE] = PORT_RELEASE,
-      [SETTING_PLUCK] = PORT_PLUCK,       [SETTING_HARDNESS] = PORT_HARDNESS,
+      [SETTING_DAMPING] = STRINGS_PORT_DAMPING,   [SETTING_TRACKING] = STRINGS_PORT_TRACKING,
+      [SETTING_LOSS] = STRINGS_PORT_LOSS,         [SETTING_STIFFNESS] = STRINGS_PORT_STIFFNESS,
+      [SETTING_MASSES] = STRINGS_PORT_MASSES,     [SETTING_TUNING] = STRINGS_PORT_TUNING,
+      [SETTING_PARTIALS] = STRINGS_PORT_PARTIALS, [SETTING_RELEASE] = STRINGS_PORT_RELEASE,
+      [SETTING_PLUCK] = STRINGS_PORT_PLUCK,       [SETTING_HARDNESS] = STRINGS_PORT_HARDNESS,
   };
   return &ranges[ports[name]];
 }
@@ -63,8 +63,8 @@ Setting settings_random(Random* random) {
 
 Patch settings_patch(const Setting* setting) {
   const double* const v = setting->value;
-  const bool is_lossless = v[SETTING_LOSS] <= ranges[PORT_LOSS].minimum;
-  const bool is_flexible = v[SETTING_STIFFNESS] <= ranges[PORT_STIFFNESS].minimum;
+  const bool is_lossless = v[SETTING_LOSS] <= ranges[STRINGS_PORT_LOSS].minimum;
+  const bool is_flexible = v[SETTING_STIFFNESS] <= ranges[STRINGS_PORT_STIFFNESS].minimum;
   return (Patch){
       .level = 1.0,
       .damping_per_s = v[SETTING_DAMPING],
@@ -72,8 +72,8 @@ Patch settings_patch(const Setting* setting) {
       .loss = is_lossless ? 0.0 : v[SETTING_LOSS],
       .inharmonicity = is_flexible ? 0.0 : v[SETTING_STIFFNESS],
       .partials = (Partials)lround(v[SETTING_PARTIALS]),
-      .pickup = ranges[PORT_PICKUP].default_value,
-      .spread = ranges[PORT_SPREAD].default_value,
+      .pickup = ranges[STRINGS_PORT_PICKUP].default_value,
+      .spread = ranges[STRINGS_PORT_SPREAD].default_value,
       .pluck = v[SETTING_PLUCK],
       .hardness = v[SETTING_HARDNESS],
       .release_s = v[SETTING_RELEASE],

@@ -1,6 +1,6 @@
 /* What hosts do, each of them somewhere: none of it may crash, reach outside, or change the sound.
  */
-#include "plugin/ports.h"
+#include "plugin/strings_ports.h"
 #include "tests/measure.h"
 #include "tests/strings_host.h"
 
@@ -73,7 +73,7 @@ static void ports_may_be_null_before_and_between_runs(void** state) {
 static void any_port_may_be_null_alone(void** state) {
   (void)state;
   Sound alone = play_alone();
-  for (uint32_t port = 0; port < N_PORTS; ++port) {
+  for (uint32_t port = 0; port < STRINGS_N_PORTS; ++port) {
     Host* const host = strings_open(RATE, BLOCK);
     Sound sound = sound_new(N_FRAMES);
     const Sound kept = {port == PORT_OUT_LEFT ? alone.left : sound.left,

@@ -1,6 +1,6 @@
 /* Buffers as hosts hand them over: at odd places, too small, and with sequences that lie.  Each is
  * as long as it says, so that a memory checker sees a byte too far. */
-#include "plugin/ports.h"
+#include "plugin/strings_ports.h"
 #include "tests/strings_host.h"
 
 #include <lv2/atom/atom.h>

@@ -1,6 +1,6 @@
-/* The ports in three places, the list below, plugin/ports.h and the Turtle, are one: sessions are
- * stored by symbol and automation by index, so this list only ever grows. */
-#include "plugin/ports.h"
+/* The ports in three places, the list below, plugin/strings_ports.h and the Turtle, are one:
+ * sessions are stored by symbol and automation by index, so this list only ever grows. */
+#include "plugin/strings_ports.h"
 #include "tests/strings_host.h"
 
 #include <lv2/atom/atom.h>
@@ -149,7 +149,8 @@ static void the_partials_have_their_names(void** state) {
   static const char* const names[] = {"Lumped", "True", "Truest"};
   (void)state;
   Host* const host = strings_open(48000.0, 64);
-  const LilvPort* const port = lilv_plugin_get_port_by_index(host_plugin(host), PORT_PARTIALS);
+  const LilvPort* const port =
+      lilv_plugin_get_port_by_index(host_plugin(host), STRINGS_PORT_PARTIALS);
   LilvScalePoints* const points = lilv_port_get_scale_points(host_plugin(host), port);
   unsigned seen = 0;
   LILV_FOREACH(scale_points, i, points) {
@@ -164,12 +165,12 @@ static void the_partials_have_their_names(void** state) {
   host_free(host);
 }
 
-/* Every port of ports.h, new ones too, is in the Turtle with the same index and range; and none is
- * in the Turtle alone. */
+/* Every port of strings_ports.h, new ones too, is in the Turtle with the same index and range; and
+ * none is in the Turtle alone. */
 static void the_turtle_says_what_the_code_says(void** state) {
   (void)state;
   Host* const host = strings_open(48000.0, 64);
-  assert_int_equal(host_n_ports(host), N_PORTS);
+  assert_int_equal(host_n_ports(host), STRINGS_N_PORTS);
   uint32_t n_ports = 0;
   HostRange range;
 #define STREAM_CHECK(name, symbol, index)                                                          \
@@ -182,11 +183,11 @@ static void the_turtle_says_what_the_code_says(void** state) {
   assert_true(range.min == (minimum) && range.max == (maximum));                                   \
   assert_true(range.initial == (default_value));                                                   \
   ++n_ports;
-  STREAM_PORTS(STREAM_CHECK)
-  CONTROL_PORTS(CONTROL_CHECK)
+  STRINGS_STREAM_PORTS(STREAM_CHECK)
+  STRINGS_CONTROL_PORTS(CONTROL_CHECK)
 #undef STREAM_CHECK
 #undef CONTROL_CHECK
-  assert_int_equal(n_ports, N_PORTS);
+  assert_int_equal(n_ports, STRINGS_N_PORTS);
   host_free(host);
 }
 

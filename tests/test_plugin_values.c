@@ -1,5 +1,5 @@
 /* What a host writes into a control port, be it out of range, no number or nothing at all. */
-#include "plugin/ports.h"
+#include "plugin/strings_ports.h"
 #include "tests/strings_host.h"
 
 #include <math.h>
@@ -67,7 +67,7 @@ static bool is_of_the_sound(Host* host, uint32_t port) {
 static Sound play_with(double value, bool is_end) {
   Host* const host = strings_open(48000.0, 960);
   Sound sound = sound_new(4800);
-  for (uint32_t i = 0; i < N_PORTS; ++i) {
+  for (uint32_t i = 0; i < STRINGS_N_PORTS; ++i) {
     HostRange range;
     if (!is_of_the_sound(host, i)) {
       continue;

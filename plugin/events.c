@@ -1,0 +1,48 @@
+#include "plugin/events.h"
+
+#include <string.h>
+
+bool events_next(const LV2_Atom_Sequence* sequence, LV2_URID type, uint32_t* offset, Event* event) {
+  if (!sequence || sequence->atom.type != type ||
+      sequence->atom.size < sizeof(LV2_Atom_Sequence_Body)) {
+    return false;
+  }
+  const uint32_t n_bytes = sequence->atom.size - (uint32_t)sizeof(LV2_Atom_Sequence_Body);
+  const uint8_t* const bytes = (const uint8_t*)(sequence + 1) + *offset;
+  LV2_Atom_Event head;
+  if (*offset + sizeof(head) > n_bytes) {
+    return false;
+  }
+  memcpy(&head, bytes, sizeof(head));
+  if (head.body.size > n_bytes - *offset - sizeof(head)) {
+    return false;
+  }
+  *event = (Event){
+      .frame = head.time.frames,
+      .type = head.body.type,
+      .size = head.body.size,
+      .body = bytes + sizeof(head),
+  };
+  const uint32_t padded = (head.body.size + 7u) & ~7u;
+  *offset += (uint32_t)sizeof(head) + padded;
+  return true;
+}
+
+uint32_t events_frame(const Event* event, uint32_t done, uint32_t n_frames) {
+  if (event->frame <= (int64_t)done) {
+    return done;
+  }
+  return event->frame < (int64_t)n_frames ? (uint32_t)event->frame : n_frames;
+}
+
+void events_write_none(LV2_Atom_Sequence* notify, LV2_URID type) {
+  if (notify && notify->atom.size >= sizeof(LV2_Atom_Sequence_Body)) {
+    notify->body.unit = 0;
+    notify->body.pad = 0;
+    notify->atom.size = sizeof(LV2_Atom_Sequence_Body);
+    notify->atom.type = type;
+  } else if (notify) {
+    notify->atom.size = 0;
+    notify->atom.type = 0;
+  }
+}

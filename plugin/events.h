@@ -1,0 +1,40 @@
+/**
+   The events of a block, read from where the host put them.
+
+   Thread: audio; real-time safe.
+*/
+#ifndef HOOKE_PLUGIN_EVENTS_H
+#define HOOKE_PLUGIN_EVENTS_H
+
+#include <lv2/atom/atom.h>
+#include <lv2/urid/urid.h>
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** An event of the control port, copied out, for a host may align it to four bytes. */
+typedef struct {
+  int64_t frame;
+  uint32_t type;
+  uint32_t size;
+  const uint8_t* body; /**< Of any alignment */
+} Event;
+
+/**
+   The event `*offset` bytes into a sequence's events, and the offset of the next.
+
+   @param sequence  May be NULL, of another type, or cut short
+   @param type      URID of atom:Sequence
+   @return false when they are over
+*/
+bool events_next(const LV2_Atom_Sequence* sequence, LV2_URID type, uint32_t* offset, Event* event);
+
+/** When it is played: one that comes late or out of order at once, at frame `done`, one past the
+ * end at the end. */
+uint32_t events_frame(const Event* event, uint32_t done, uint32_t n_frames);
+
+/** Make the host's buffer an empty sequence, for there is nothing to notify of yet, and the host's
+ * word on its room must give way; NULL is ignored. */
+void events_write_none(LV2_Atom_Sequence* notify, LV2_URID type);
+
+#endif

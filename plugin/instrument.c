@@ -1,0 +1,179 @@
+#include "plugin/instrument.h"
+
+#include "plugin/denormals.h"
+#include "plugin/events.h"
+
+#include <lv2/midi/midi.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The shortest time in which a port's change takes effect [s]; else it takes the block. */
+static const double SHORTEST_GLIDE_S = 0.005;
+
+typedef struct {
+  LV2_URID atom_Sequence;
+  LV2_URID midi_MidiEvent;
+  LV2_URID own; /* The kind's own events, if there are any */
+} Urids;
+
+typedef struct {
+  const InstrumentKind* kind;
+  double rate_hz;
+
+  /* Features */
+  Urids urids;
+
+  /* Ports */
+  void* ports[PORTS_MAX];
+
+  /* State */
+  void* player;
+  Controls controls;
+  bool is_fresh; /* Whether nothing has been played since activation: there is nothing to glide
+                    from */
+  bool is_muted;
+  float left[INSTRUMENT_FRAMES];
+  float right[INSTRUMENT_FRAMES];
+} Instrument;
+
+static const LV2_URID_Map* find_map(const LV2_Feature* const* features) {
+  for (; features && *features; ++features) {
+    if (!strcmp((*features)->URI, LV2_URID__map)) {
+      return (const LV2_URID_Map*)(*features)->data;
+    }
+  }
+  return NULL;
+}
+
+static Urids map_urids(const LV2_URID_Map* map, const char* own_uri) {
+  return (Urids){
+      .atom_Sequence = map->map(map->handle, LV2_ATOM__Sequence),
+      .midi_MidiEvent = map->map(map->handle, LV2_MIDI__MidiEvent),
+      .own = own_uri ? map->map(map->handle, own_uri) : 0,
+  };
+}
+
+/* A port that changed takes the whole block to get there, so that a host's stairs become slopes. */
+static void take_controls(Instrument* self, uint32_t n_frames) {
+  Controls controls = self->kind->read(self->ports);
+  controls.value[PORT_FREEWHEEL] = 0.0f; /* It sounds the same. */
+  if (!self->is_fresh && ports_are_same(&controls, &self->controls)) {
+    return;
+  }
+  const uint32_t n_shortest = (uint32_t)(SHORTEST_GLIDE_S * self->rate_hz) + 1;
+  const uint32_t n_glide = n_frames > n_shortest ? n_frames : n_shortest;
+  self->kind->set(self->player, &controls, self->is_fresh ? 0 : n_glide);
+  const bool is_muted = controls.value[PORT_ENABLED] < 0.5f;
+  if (is_muted && !self->is_muted) {
+    self->kind->silence(self->player);
+  }
+  self->is_muted = is_muted;
+  self->controls = controls;
+  self->is_fresh = false;
+}
+
+static void write_frames(float* out, const float* from, uint32_t n_frames) {
+  if (out) {
+    memcpy(out, from, n_frames * sizeof(float));
+  }
+}
+
+/* Run from frame `from` to frame `to` of the block.  A host may connect neither side, or one buffer
+ * to both. */
+static void render(Instrument* self, uint32_t from, uint32_t to) {
+  float* const left = self->ports[PORT_OUT_LEFT];
+  float* const right = self->ports[PORT_OUT_RIGHT];
+  while (from < to) {
+    const uint32_t n = to - from < INSTRUMENT_FRAMES ? to - from : INSTRUMENT_FRAMES;
+    self->kind->run(self->player, n, self->left, self->right);
+    if (left && left == right) {
+      for (uint32_t i = 0; i < n; ++i) {
+        self->left[i] = self->right[i] = 0.5f * (self->left[i] + self->right[i]);
+      }
+    }
+    write_frames(left ? left + from : NULL, self->left, n);
+    write_frames(right ? right + from : NULL, self->right, n);
+    from += n;
+  }
+}
+
+static void write_value(Instrument* self, uint32_t port, double value) {
+  float* const out = self->ports[port];
+  if (out) {
+    *out = (float)value;
+  }
+}
+
+static void write_report(Instrument* self) {
+  const InstrumentReport report = self->kind->report(self->player);
+  write_value(self, self->kind->meters, report.n_strings);
+  write_value(self, self->kind->meters + 1, report.n_masses);
+  write_value(self, self->kind->meters + 2, report.headroom);
+}
+
+/* Events split the block. */
+static void play_block(Instrument* self, const LV2_Atom_Sequence* control, uint32_t n_frames) {
+  uint32_t done = 0;
+  uint32_t offset = 0;
+  Event event;
+  while (events_next(control, self->urids.atom_Sequence, &offset, &event)) {
+    const bool is_midi = event.type == self->urids.midi_MidiEvent;
+    const bool is_own = self->kind->play_event && event.type == self->urids.own;
+    if (is_midi || is_own) {
+      const uint32_t frame = events_frame(&event, done, n_frames);
+      render(self, done, frame);
+      done = frame;
+      (is_midi ? self->kind->play_midi : self->kind->play_event)(self->player, event.body,
+                                                                 event.size, self->is_muted);
+    }
+  }
+  render(self, done, n_frames);
+}
+
+LV2_Handle
+instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* const* features) {
+  const LV2_URID_Map* const map = find_map(features);
+  Instrument* const self = map ? calloc(1, sizeof(Instrument)) : NULL;
+  if (!self) {
+    return NULL;
+  }
+  self->kind = kind;
+  self->rate_hz = rate_hz;
+  self->urids = map_urids(map, kind->event_uri);
+  self->player = kind->new (rate_hz);
+  if (!self->player) {
+    free(self);
+    return NULL;
+  }
+  return self;
+}
+
+void instrument_connect_port(LV2_Handle handle, uint32_t index, void* data) {
+  Instrument* const self = handle;
+  if (index < self->kind->n_ports) {
+    self->ports[index] = data;
+  }
+}
+
+void instrument_activate(LV2_Handle handle) {
+  Instrument* const self = handle;
+  self->kind->reset(self->player);
+  self->is_fresh = true;
+}
+
+void instrument_run(LV2_Handle handle, uint32_t n_frames) {
+  Instrument* const self = handle;
+  const uint64_t denormals = denormals_flush();
+  take_controls(self, n_frames);
+  play_block(self, self->ports[PORT_CONTROL], n_frames);
+  write_report(self);
+  events_write_none(self->ports[PORT_NOTIFY], self->urids.atom_Sequence);
+  denormals_restore(denormals);
+}
+
+void instrument_cleanup(LV2_Handle handle) {
+  Instrument* const self = handle;
+  self->kind->free(self->player);
+  free(self);
+}

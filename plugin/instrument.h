@@ -1,0 +1,74 @@
+/**
+   What every instrument of the bundle does for its host: ports, events and frames.
+
+   An InstrumentKind says what is its own.  Events split the block: the frames until an event are
+   run before it is played.  The ports are read once a block.
+
+   Thread: as LV2 has it; all but instrument_new() and instrument_cleanup() is real-time safe.
+*/
+#ifndef HOOKE_PLUGIN_INSTRUMENT_H
+#define HOOKE_PLUGIN_INSTRUMENT_H
+
+#include "plugin/ports.h"
+
+#include <lv2/core/lv2.h>
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { INSTRUMENT_FRAMES = 256 /**< Most frames that are run at a time */ };
+
+/** What is sounding. */
+typedef struct {
+  uint32_t n_strings;
+  uint32_t n_masses;
+  double headroom;
+} InstrumentReport;
+
+/** What an instrument does in its own way; `player` is what its `new` made. */
+typedef struct {
+  uint32_t n_ports; /**< At most PORTS_MAX */
+  uint32_t meters;  /**< Index of the first of the three ports that report: strings sounding, their
+                       masses and the headroom */
+  const char* event_uri; /**< Type of the atoms that `play_event` takes; NULL: there are none */
+
+  /** Make a player at rest; NULL if there is no memory or the rate is no rate. */
+  void* (*new)(double rate_hz);
+  void (*free)(void* player);
+
+  /** Bring it to rest, with nothing held, bent or touched. */
+  void (*reset)(void* player);
+
+  /** Read the control inputs. */
+  Controls (*read)(void* const ports[PORTS_MAX]);
+
+  /** Take new values, and get there in `n_frames`, 0: at once. */
+  void (*set)(void* player, const Controls* controls, uint32_t n_frames);
+
+  /** All sound off. */
+  void (*silence)(void* player);
+
+  /** Play a MIDI message; what makes a string sound is left out if the instrument is muted. */
+  void (*play_midi)(void* player, const uint8_t* bytes, uint32_t n_bytes, bool is_muted);
+
+  /** Play the body of an atom of type `event_uri`, of any alignment. */
+  void (*play_event)(void* player, const uint8_t* body, uint32_t n_bytes, bool is_muted);
+
+  /** Run at most INSTRUMENT_FRAMES frames. */
+  void (*run)(void* player, uint32_t n_frames, float* left, float* right);
+  InstrumentReport (*report)(const void* player);
+} InstrumentKind;
+
+/** For instantiate(): NULL if the host offers no urid:map, or `kind` makes no player.  `kind` has
+ * to outlive it. */
+LV2_Handle
+instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* const* features);
+
+/* The members of an LV2_Descriptor of the same name */
+
+void instrument_connect_port(LV2_Handle handle, uint32_t index, void* data);
+void instrument_activate(LV2_Handle handle);
+void instrument_run(LV2_Handle handle, uint32_t n_frames);
+void instrument_cleanup(LV2_Handle handle);
+
+#endif

@@ -1,0 +1,40 @@
+#include "plugin/strings_midi.h"
+
+#include "plugin/midi.h"
+
+static const double BEND_SEMITONES = 2.0;
+
+static void play_controller(Harp* harp, uint32_t controller, uint32_t value) {
+  if (controller == MIDI_PEDAL) {
+    harp_pedal(harp, value >= MIDI_DOWN);
+  } else if (controller == MIDI_ALL_SOUND_OFF) {
+    harp_all_sound_off(harp);
+  } else if (controller == MIDI_RESET_CONTROLLERS) {
+    harp_pedal(harp, false);
+    harp_bend(harp, 0.0);
+  } else if (controller >= MIDI_ALL_NOTES_OFF) {
+    harp_all_notes_off(harp);
+  }
+}
+
+void strings_midi_play(Harp* harp, const uint8_t* bytes, uint32_t n_bytes, bool is_muted) {
+  const MidiMessage message = midi_read(bytes, n_bytes);
+  switch (message.kind) {
+  case MIDI_NOTE_ON:
+    if (!is_muted) {
+      harp_note_on(harp, message.number, message.value);
+    }
+    break;
+  case MIDI_NOTE_OFF:
+    harp_note_off(harp, message.number);
+    break;
+  case MIDI_CONTROLLER:
+    play_controller(harp, message.number, message.value);
+    break;
+  case MIDI_BEND:
+    harp_bend(harp, BEND_SEMITONES * message.bend);
+    break;
+  case MIDI_OTHER:
+    break;
+  }
+}

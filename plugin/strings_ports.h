@@ -1,0 +1,49 @@
+/** The ports of Hooke Strings, in one list.  ttl/strings.ttl says the same, and a test holds it to
+ * that. */
+#ifndef HOOKE_PLUGIN_STRINGS_PORTS_H
+#define HOOKE_PLUGIN_STRINGS_PORTS_H
+
+#include "core/patch.h"
+#include "plugin/ports.h"
+
+/**
+   X(NAME, symbol, index): ports that are not control inputs.  Hosts store automation by index and
+   values by symbol: ports are appended, never moved, renamed or removed.
+*/
+#define STRINGS_STREAM_PORTS(X)                                                                    \
+  COMMON_STREAM_PORTS(X)                                                                           \
+  X(SOUNDING, sounding, 18)                                                                        \
+  X(MASS_COUNT, mass_count, 19)                                                                    \
+  X(HEADROOM, headroom, 20)
+
+/** X(NAME, symbol, index, minimum, maximum, default): control inputs. */
+#define STRINGS_CONTROL_PORTS(X)                                                                   \
+  COMMON_CONTROL_PORTS(X)                                                                          \
+  X(LEVEL, level, 6, -60.0f, 12.0f, 0.0f)                                                          \
+  X(DAMPING, damping, 7, 0.02f, 200.0f, 0.6f)                                                      \
+  X(TRACKING, tracking, 8, 0.0f, 1.0f, 0.5f)                                                       \
+  X(LOSS, loss, 9, 1e-5f, 1.0f, 0.01f)                                                             \
+  X(STIFFNESS, stiffness, 10, 1e-6f, 0.1f, 1e-6f)                                                  \
+  X(PICKUP, pickup, 11, 0.0f, 1.0f, 0.2f)                                                          \
+  X(SPREAD, spread, 12, 0.0f, 0.5f, 0.1f)                                                          \
+  X(PLUCK, pluck, 13, 0.0f, 1.0f, 0.13f)                                                           \
+  X(HARDNESS, hardness, 14, 0.0f, 1.0f, 0.5f)                                                      \
+  X(MASSES, masses, 15, 1.0f, 1024.0f, 128.0f)                                                     \
+  X(RELEASE, release, 16, 0.005f, 10.0f, 0.1f)                                                     \
+  X(TUNING, tuning, 17, 400.0f, 480.0f, 440.0f)                                                    \
+  X(PARTIALS, partials, 21, 0.0f, 2.0f, 2.0f)
+
+#define STREAM_ENUM(name, symbol, index) STRINGS_PORT_##name = (index),
+#define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
+  STRINGS_PORT_##name = (index),
+enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 22 };
+#undef STREAM_ENUM
+#undef CONTROL_ENUM
+
+/** Read the control inputs, see ports_read(). */
+Controls strings_ports_read(void* const ports[PORTS_MAX]);
+
+/** What the controls say, as a patch for the harp. */
+Patch strings_ports_patch(const Controls* controls);
+
+#endif
