@@ -23,11 +23,10 @@
 #define HOOKE_CORE_GUITAR_H
 
 #include "core/guitar_patch.h"
+#include "core/guitar_reading.h"
 
 #include <stdbool.h>
 #include <stdint.h>
-
-enum { GUITAR_MIX_FRAMES = 256 /**< Frames that are mixed at a time */ };
 
 /** Largest displacement of one string plucked with force 1, at level 1. */
 #define GUITAR_NOTE_PEAK 0.25

@@ -1,0 +1,343 @@
+#include "core/guitar.h"
+
+#include "core/guitar_string.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How much harder the hardest pluck is than the one where the patch's hardness is what it says. */
+static const double FORCE_HARDNESS = 0.25;
+static const double FORCE_NEUTRAL = 0.75;
+
+/* A finger that falls or pulls off, against a pluck of the same force. */
+static const double HAMMER_GAIN = 0.5;
+static const double HAMMER_HARDNESS = 0.4;
+
+/* The strings beside the others: an octave higher but for the highest third, and a little sharp, so
+ * that they beat [semitones]. */
+static const double COURSE_DETUNE = 0.03;
+
+enum { N_WIRES = 2 * GUITAR_STRINGS /**< The strings, and then those beside them */ };
+
+struct Guitar {
+  double rate_hz;
+  uint32_t n_gesture;
+  GuitarPatch patch; /* With the palm's weight in it */
+  double palm;       /* The patch's */
+  double weight;     /* What guitar_palm() adds */
+  Ramp level;
+  Ramp gains[GUITAR_PICKUPS];
+  Ramp pans[N_WIRES][2];
+  GuitarString strings[N_WIRES];
+  void* memory; /* Of all strings; owned */
+  GuitarGains gain;
+  float own[GUITAR_MIX_FRAMES];
+  float sides[2][GUITAR_MIX_FRAMES];
+};
+
+static const GuitarPatch usual = {
+    .string = {.level = 1.0,
+               .damping_per_s = 0.6,
+               .tracking = 0.5,
+               .loss = 0.01,
+               .partials = PARTIALS_TRUEST,
+               .pluck = 0.13,
+               .hardness = 0.5,
+               .release_s = 0.1,
+               .tuning_hz = 440.0,
+               .max_masses = 80},
+    .pickups = {{0.1, 1.0}, {0.25, 0.0}},
+    .open = {64.0, 59.0, 55.0, 50.0, 45.0, 40.0},
+    .n_strings = 6,
+};
+
+static double clamp(double value, double low, double high) {
+  return fmin(fmax(value, low), high);
+}
+
+/* In frames, no shorter than a gesture. */
+static uint32_t frames_of(const Guitar* guitar, double time_s) {
+  const double frames = round(time_s * guitar->rate_hz);
+  return (uint32_t)clamp(frames, guitar->n_gesture, (double)INT32_MAX);
+}
+
+/* A string and the one beside it: `side` 0 and 1. */
+static GuitarString* string_of(Guitar* guitar, uint32_t string, int side) {
+  return &guitar->strings[string + (side ? GUITAR_STRINGS : 0)];
+}
+
+static bool has(const Guitar* guitar, uint32_t string) {
+  return string < guitar->patch.n_strings;
+}
+
+static double beside(const GuitarPatch* patch, uint32_t string) {
+  return (3 * string < patch->n_strings ? 0.0 : 12.0) + COURSE_DETUNE;
+}
+
+/* The lowest string is the leftmost; as loud in any place. */
+static void pan_to(Guitar* guitar, uint32_t n_frames) {
+  const GuitarPatch* const patch = &guitar->patch;
+  for (uint32_t w = 0; w < N_WIRES; ++w) {
+    const double s = w % GUITAR_STRINGS;
+    const double place = patch->n_strings > 1 ? 1.0 - 2.0 * s / (patch->n_strings - 1.0) : 0.0;
+    const double right = clamp(patch->width * place, -1.0, 1.0);
+    ramp_to(&guitar->pans[w][0], (float)sqrt(1.0 - right), n_frames);
+    ramp_to(&guitar->pans[w][1], (float)sqrt(1.0 + right), n_frames);
+  }
+}
+
+static void set_palm(Guitar* guitar) {
+  guitar->patch.palm = fmin(1.0, guitar->palm + guitar->weight);
+}
+
+static void follow_all(Guitar* guitar, uint32_t n_frames) {
+  for (uint32_t w = 0; w < N_WIRES; ++w) {
+    guitar_string_follow(&guitar->strings[w], &guitar->patch, n_frames);
+  }
+}
+
+double guitar_force(uint32_t velocity) {
+  const double share = velocity / 127.0;
+  return share * share;
+}
+
+Guitar* guitar_new(double rate_hz) {
+  Guitar* const guitar = isfinite(rate_hz) && rate_hz > 0.0 ? calloc(1, sizeof(Guitar)) : NULL;
+  if (!guitar) {
+    return NULL;
+  }
+  const size_t size = chain_size(GUITAR_MAX_MASSES);
+  guitar->rate_hz = rate_hz;
+  guitar->n_gesture = wire_gesture_frames(rate_hz);
+  guitar->memory = aligned_alloc(CHAIN_ALIGNMENT, N_WIRES * size);
+  if (!guitar->memory) {
+    guitar_free(guitar);
+    return NULL;
+  }
+  memset(guitar->memory, 0, N_WIRES * size);
+  for (uint32_t w = 0; w < N_WIRES; ++w) {
+    guitar_string_init(&guitar->strings[w], rate_hz, w, (char*)guitar->memory + w * size);
+  }
+  guitar_set_patch(guitar, &usual, 0);
+  return guitar;
+}
+
+void guitar_free(Guitar* guitar) {
+  if (guitar) {
+    free(guitar->memory);
+    free(guitar);
+  }
+}
+
+double guitar_rate_hz(const Guitar* guitar) {
+  return guitar->rate_hz;
+}
+
+void guitar_reset(Guitar* guitar) {
+  for (uint32_t w = 0; w < N_WIRES; ++w) {
+    guitar_string_reset(&guitar->strings[w]);
+  }
+  guitar->weight = 0.0;
+  set_palm(guitar);
+}
+
+void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frames) {
+  const uint32_t n_glide =
+      n_frames > 0 && n_frames < guitar->n_gesture ? guitar->n_gesture : n_frames;
+  guitar->patch = *patch;
+  guitar->palm = patch->palm;
+  set_palm(guitar);
+  ramp_to(&guitar->level, (float)patch->string.level, n_glide);
+  for (int p = 0; p < GUITAR_PICKUPS; ++p) {
+    ramp_to(&guitar->gains[p], (float)patch->pickups[p].gain, n_glide);
+  }
+  pan_to(guitar, n_glide);
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    string_of(guitar, s, 0)->open = patch->open[s];
+    string_of(guitar, s, 1)->open = patch->open[s] + beside(patch, s);
+    for (int side = 0; !has(guitar, s) && side < 2; ++side) {
+      guitar_string_damp(string_of(guitar, s, side), &guitar->patch, GUITAR_CHOKED, 0);
+    }
+  }
+  follow_all(guitar, n_glide);
+}
+
+void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
+  const Patch* const patch = &guitar->patch.string;
+  const double harder = FORCE_HARDNESS * (sqrt(fabs(pluck.force)) - FORCE_NEUTRAL);
+  const double place = isnan(pluck.place) ? patch->pluck : pluck.place;
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    GuitarString* const s = string_of(guitar, string, side);
+    const double share = side ? guitar->patch.course : 1.0;
+    if (share > 0.0 || s->wire.is_awake) {
+      const Pluck own = {
+          .place = guitar_string_place(s, &guitar->patch, place),
+          .hardness =
+              isnan(pluck.hardness) ? clamp(patch->hardness + harder, 0.0, 1.0) : pluck.hardness,
+          .amplitude = GUITAR_NOTE_PEAK * share * pluck.force,
+      };
+      guitar_string_pluck(s, &guitar->patch, own);
+    }
+  }
+}
+
+void guitar_fret(Guitar* guitar, uint32_t string, double fret) {
+  guitar_slide(guitar, string, fret, 0.0);
+}
+
+void guitar_hammer(Guitar* guitar, uint32_t string, double fret, double force) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    GuitarString* const s = string_of(guitar, string, side);
+    const double share = side ? guitar->patch.course : 1.0;
+    const double frets = s->motion.fret.goal - fret;
+    guitar_string_slide(s, &guitar->patch, fret, guitar->n_gesture);
+    if (share > 0.0 || s->wire.is_awake) {
+      const Pluck own = {
+          .place = fmin(exp2(-fmax(frets, 0.0) / 12.0), GUITAR_FARTHEST),
+          .hardness = HAMMER_HARDNESS,
+          .amplitude = GUITAR_NOTE_PEAK * HAMMER_GAIN * share * force,
+      };
+      guitar_string_pluck(s, &guitar->patch, own);
+    }
+  }
+}
+
+void guitar_slide(Guitar* guitar, uint32_t string, double fret, double time_s) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_slide(string_of(guitar, string, side), &guitar->patch, fret,
+                        frames_of(guitar, time_s));
+  }
+}
+
+void guitar_bend(Guitar* guitar, uint32_t string, double semitones, double time_s) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_bend(string_of(guitar, string, side), &guitar->patch, semitones,
+                       frames_of(guitar, time_s));
+  }
+}
+
+void guitar_vibrato(Guitar* guitar, uint32_t string, double depth, double rate_hz) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_vibrato(string_of(guitar, string, side), &guitar->patch, depth,
+                          rate_hz / guitar->rate_hz);
+  }
+}
+
+void guitar_damp(Guitar* guitar, uint32_t string, double time_s) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_damp(string_of(guitar, string, side), &guitar->patch, GUITAR_DAMPED,
+                       isinf(time_s) ? 0 : frames_of(guitar, time_s));
+  }
+}
+
+void guitar_let_ring(Guitar* guitar, uint32_t string) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_damp(string_of(guitar, string, side), &guitar->patch, GUITAR_RINGING, 0);
+  }
+}
+
+void guitar_touch(Guitar* guitar, uint32_t string, double place, double time_s) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_touch(string_of(guitar, string, side), place, frames_of(guitar, time_s));
+  }
+}
+
+void guitar_palm(Guitar* guitar, double weight) {
+  guitar->weight = weight;
+  set_palm(guitar);
+  follow_all(guitar, guitar->n_gesture);
+}
+
+void guitar_choke(Guitar* guitar) {
+  for (uint32_t w = 0; w < N_WIRES; ++w) {
+    guitar_string_damp(&guitar->strings[w], &guitar->patch, GUITAR_CHOKED, 0);
+  }
+}
+
+bool guitar_is_awake(const Guitar* guitar, uint32_t string) {
+  return has(guitar, string) && (guitar->strings[string].wire.is_awake ||
+                                 guitar->strings[string + GUITAR_STRINGS].wire.is_awake);
+}
+
+double guitar_fretted(const Guitar* guitar, uint32_t string) {
+  return has(guitar, string) ? guitar->strings[string].motion.fret.goal : 0.0;
+}
+
+GuitarReport guitar_report(const Guitar* guitar) {
+  GuitarReport report = {.headroom = 1.0};
+  for (uint32_t w = 0; w < N_WIRES; ++w) {
+    const Wire* const wire = &guitar->strings[w].wire;
+    if (wire->is_awake) {
+      ++report.n_strings;
+      report.n_masses += wire->chain.n_masses;
+      report.headroom = fmin(report.headroom, wire->headroom);
+    }
+  }
+  return report;
+}
+
+static void ramp_gains(Guitar* guitar, uint32_t n_frames) {
+  for (int p = 0; p < GUITAR_PICKUPS; ++p) {
+    Ramp* const ramp = &guitar->gains[p];
+    guitar->gain.is_read[p] = ramp->value != 0.0f || ramp->n_left > 0;
+    for (uint32_t n = 0; n < n_frames; ++n) {
+      guitar->gain.gain[p][n] = ramp_next(ramp);
+    }
+  }
+}
+
+static void add(Ramp* gain, const float* from, uint32_t n_frames, float* to) {
+  if (gain->n_left > 0) {
+    for (uint32_t n = 0; n < n_frames; ++n) {
+      to[n] += ramp_next(gain) * from[n];
+    }
+  } else {
+    const float still = gain->value;
+    for (uint32_t n = 0; n < n_frames; ++n) {
+      to[n] += still * from[n];
+    }
+  }
+}
+
+static void run_string(Guitar* guitar, uint32_t w, uint32_t n_frames) {
+  GuitarString* const string = &guitar->strings[w];
+  const bool is_heard = string->wire.is_awake;
+  if (is_heard) {
+    memset(guitar->own, 0, n_frames * sizeof(float));
+  }
+  guitar_string_run(string, &guitar->patch, &guitar->gain, n_frames, guitar->own);
+  for (int side = 0; side < 2; ++side) {
+    if (is_heard) {
+      add(&guitar->pans[w][side], guitar->own, n_frames, guitar->sides[side]);
+    } else {
+      for (uint32_t n = 0; n < n_frames && guitar->pans[w][side].n_left > 0; ++n) {
+        (void)ramp_next(&guitar->pans[w][side]);
+      }
+    }
+  }
+}
+
+static void run_some(Guitar* guitar, uint32_t n_frames, float* left, float* right) {
+  for (int side = 0; side < 2; ++side) {
+    memset(guitar->sides[side], 0, n_frames * sizeof(float));
+  }
+  ramp_gains(guitar, n_frames);
+  for (uint32_t w = 0; w < N_WIRES; ++w) {
+    run_string(guitar, w, n_frames);
+  }
+  for (uint32_t n = 0; n < n_frames; ++n) {
+    const float level = ramp_next(&guitar->level);
+    left[n] = level * guitar->sides[0][n];
+    right[n] = level * guitar->sides[1][n];
+  }
+}
+
+void guitar_run(Guitar* guitar, uint32_t n_frames, float* left, float* right) {
+  for (uint32_t done = 0; done < n_frames;) {
+    const uint32_t left_over = n_frames - done;
+    const uint32_t n = left_over < GUITAR_MIX_FRAMES ? left_over : GUITAR_MIX_FRAMES;
+    run_some(guitar, n, left + done, right + done);
+    done += n;
+  }
+}
