@@ -11,7 +11,7 @@ static const double FORCE_HARDNESS = 0.25;
 static const double FORCE_NEUTRAL = 0.75;
 
 /* A finger that falls or pulls off, against a pluck of the same force. */
-static const double HAMMER_GAIN = 0.5;
+static const double HAMMER_GAIN = 0.4;
 static const double HAMMER_HARDNESS = 0.4;
 
 /* The strings beside the others: an octave higher but for the highest third, and a little sharp, so
