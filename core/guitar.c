@@ -1,5 +1,6 @@
 #include "core/guitar.h"
 
+#include "core/guitar_mixer.h"
 #include "core/guitar_string.h"
 
 #include <math.h>
@@ -18,22 +19,15 @@ static const double HAMMER_HARDNESS = 0.4;
  * that they beat [semitones]. */
 static const double COURSE_DETUNE = 0.03;
 
-enum { N_WIRES = 2 * GUITAR_STRINGS /**< The strings, and then those beside them */ };
-
 struct Guitar {
   double rate_hz;
   uint32_t n_gesture;
   GuitarPatch patch; /* With the palm's weight in it */
   double palm;       /* The patch's */
   double weight;     /* What guitar_palm() adds */
-  Ramp level;
-  Ramp gains[GUITAR_PICKUPS];
-  Ramp pans[N_WIRES][2];
-  GuitarString strings[N_WIRES];
+  GuitarString strings[GUITAR_WIRES];
   void* memory; /* Of all strings; owned */
-  GuitarGains gain;
-  float own[GUITAR_MIX_FRAMES];
-  float sides[2][GUITAR_MIX_FRAMES];
+  GuitarMixer mixer;
 };
 
 static const GuitarPatch usual = {
@@ -75,24 +69,12 @@ static double beside(const GuitarPatch* patch, uint32_t string) {
   return (3 * string < patch->n_strings ? 0.0 : 12.0) + COURSE_DETUNE;
 }
 
-/* The lowest string is the leftmost; as loud in any place. */
-static void pan_to(Guitar* guitar, uint32_t n_frames) {
-  const GuitarPatch* const patch = &guitar->patch;
-  for (uint32_t w = 0; w < N_WIRES; ++w) {
-    const double s = w % GUITAR_STRINGS;
-    const double place = patch->n_strings > 1 ? 1.0 - 2.0 * s / (patch->n_strings - 1.0) : 0.0;
-    const double right = clamp(patch->width * place, -1.0, 1.0);
-    ramp_to(&guitar->pans[w][0], (float)sqrt(1.0 - right), n_frames);
-    ramp_to(&guitar->pans[w][1], (float)sqrt(1.0 + right), n_frames);
-  }
-}
-
 static void set_palm(Guitar* guitar) {
   guitar->patch.palm = fmin(1.0, guitar->palm + guitar->weight);
 }
 
 static void follow_all(Guitar* guitar, uint32_t n_frames) {
-  for (uint32_t w = 0; w < N_WIRES; ++w) {
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
     guitar_string_follow(&guitar->strings[w], &guitar->patch, n_frames);
   }
 }
@@ -110,13 +92,13 @@ Guitar* guitar_new(double rate_hz) {
   const size_t size = chain_size(GUITAR_MAX_MASSES);
   guitar->rate_hz = rate_hz;
   guitar->n_gesture = wire_gesture_frames(rate_hz);
-  guitar->memory = aligned_alloc(CHAIN_ALIGNMENT, N_WIRES * size);
+  guitar->memory = aligned_alloc(CHAIN_ALIGNMENT, GUITAR_WIRES * size);
   if (!guitar->memory) {
     guitar_free(guitar);
     return NULL;
   }
-  memset(guitar->memory, 0, N_WIRES * size);
-  for (uint32_t w = 0; w < N_WIRES; ++w) {
+  memset(guitar->memory, 0, GUITAR_WIRES * size);
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
     guitar_string_init(&guitar->strings[w], rate_hz, w, (char*)guitar->memory + w * size);
   }
   guitar_set_patch(guitar, &usual, 0);
@@ -135,7 +117,7 @@ double guitar_rate_hz(const Guitar* guitar) {
 }
 
 void guitar_reset(Guitar* guitar) {
-  for (uint32_t w = 0; w < N_WIRES; ++w) {
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
     guitar_string_reset(&guitar->strings[w]);
   }
   guitar->weight = 0.0;
@@ -148,11 +130,7 @@ void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frame
   guitar->patch = *patch;
   guitar->palm = patch->palm;
   set_palm(guitar);
-  ramp_to(&guitar->level, (float)patch->string.level, n_glide);
-  for (int p = 0; p < GUITAR_PICKUPS; ++p) {
-    ramp_to(&guitar->gains[p], (float)patch->pickups[p].gain, n_glide);
-  }
-  pan_to(guitar, n_glide);
+  guitar_mixer_set(&guitar->mixer, &guitar->patch, n_glide);
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
     string_of(guitar, s, 0)->open = patch->open[s];
     string_of(guitar, s, 1)->open = patch->open[s] + beside(patch, s);
@@ -250,7 +228,7 @@ void guitar_palm(Guitar* guitar, double weight) {
 }
 
 void guitar_choke(Guitar* guitar) {
-  for (uint32_t w = 0; w < N_WIRES; ++w) {
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
     guitar_string_damp(&guitar->strings[w], &guitar->patch, GUITAR_CHOKED, 0);
   }
 }
@@ -266,7 +244,7 @@ double guitar_fretted(const Guitar* guitar, uint32_t string) {
 
 GuitarReport guitar_report(const Guitar* guitar) {
   GuitarReport report = {.headroom = 1.0};
-  for (uint32_t w = 0; w < N_WIRES; ++w) {
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
     const Wire* const wire = &guitar->strings[w].wire;
     if (wire->is_awake) {
       ++report.n_strings;
@@ -277,67 +255,6 @@ GuitarReport guitar_report(const Guitar* guitar) {
   return report;
 }
 
-static void ramp_gains(Guitar* guitar, uint32_t n_frames) {
-  for (int p = 0; p < GUITAR_PICKUPS; ++p) {
-    Ramp* const ramp = &guitar->gains[p];
-    guitar->gain.is_read[p] = ramp->value != 0.0f || ramp->n_left > 0;
-    for (uint32_t n = 0; n < n_frames; ++n) {
-      guitar->gain.gain[p][n] = ramp_next(ramp);
-    }
-  }
-}
-
-static void add(Ramp* gain, const float* from, uint32_t n_frames, float* to) {
-  if (gain->n_left > 0) {
-    for (uint32_t n = 0; n < n_frames; ++n) {
-      to[n] += ramp_next(gain) * from[n];
-    }
-  } else {
-    const float still = gain->value;
-    for (uint32_t n = 0; n < n_frames; ++n) {
-      to[n] += still * from[n];
-    }
-  }
-}
-
-static void run_string(Guitar* guitar, uint32_t w, uint32_t n_frames) {
-  GuitarString* const string = &guitar->strings[w];
-  const bool is_heard = string->wire.is_awake;
-  if (is_heard) {
-    memset(guitar->own, 0, n_frames * sizeof(float));
-  }
-  guitar_string_run(string, &guitar->patch, &guitar->gain, n_frames, guitar->own);
-  for (int side = 0; side < 2; ++side) {
-    if (is_heard) {
-      add(&guitar->pans[w][side], guitar->own, n_frames, guitar->sides[side]);
-    } else {
-      for (uint32_t n = 0; n < n_frames && guitar->pans[w][side].n_left > 0; ++n) {
-        (void)ramp_next(&guitar->pans[w][side]);
-      }
-    }
-  }
-}
-
-static void run_some(Guitar* guitar, uint32_t n_frames, float* left, float* right) {
-  for (int side = 0; side < 2; ++side) {
-    memset(guitar->sides[side], 0, n_frames * sizeof(float));
-  }
-  ramp_gains(guitar, n_frames);
-  for (uint32_t w = 0; w < N_WIRES; ++w) {
-    run_string(guitar, w, n_frames);
-  }
-  for (uint32_t n = 0; n < n_frames; ++n) {
-    const float level = ramp_next(&guitar->level);
-    left[n] = level * guitar->sides[0][n];
-    right[n] = level * guitar->sides[1][n];
-  }
-}
-
 void guitar_run(Guitar* guitar, uint32_t n_frames, float* left, float* right) {
-  for (uint32_t done = 0; done < n_frames;) {
-    const uint32_t left_over = n_frames - done;
-    const uint32_t n = left_over < GUITAR_MIX_FRAMES ? left_over : GUITAR_MIX_FRAMES;
-    run_some(guitar, n, left + done, right + done);
-    done += n;
-  }
+  guitar_mixer_run(&guitar->mixer, guitar->strings, &guitar->patch, n_frames, left, right);
 }
