@@ -3,6 +3,7 @@
 #include "tools/modes_command.h"
 #include "tools/render.h"
 #include "tools/report.h"
+#include "tools/score.h"
 #include "tools/tune_command.h"
 
 #include <stdio.h>
@@ -20,7 +21,8 @@ typedef struct {
 } Command;
 
 static const Command commands[] = {
-    {"render", "play a MIDI file or a scene and write what sounds", render_help, render_main},
+    {"render", "play a MIDI file, a score or a scene and write what sounds", render_help,
+     render_main},
     {"modes", "say what a scene will sound like, and whether it is stable", modes_help, modes_main},
     {"tune", "find the masses and springs of a pitch and a decay", tune_help, tune_main},
     {"report", "draw the paper's figures and check its numbers", report_help, report_main},
@@ -48,7 +50,8 @@ static int help_all(void) {
   for (unsigned i = 0; i < N_COMMANDS; ++i) {
     printf("  %-8s %s\n", commands[i].name, commands[i].summary);
   }
-  printf("\nhooke help COMMAND says more; hooke --version says which hooke this is.\n");
+  printf("\nhooke help COMMAND says more, and hooke help score what a score is; hooke --version "
+         "says which hooke this is.\n");
   return ARGS_OK;
 }
 
@@ -56,6 +59,9 @@ static int help(const char* name) {
   const Command* const command = name ? find_command(name) : NULL;
   if (!name) {
     return help_all();
+  }
+  if (!strcmp(name, "score")) {
+    return fputs(score_help, stdout) < 0 ? ARGS_FAILURE : ARGS_OK;
   }
   if (!command) {
     return refuse(name);

@@ -2,6 +2,7 @@
 
 #include "tools/play.h"
 
+#include <lv2/midi/midi.h>
 #include <math.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -14,7 +15,7 @@ static const double SILENCE_S = 0.25;
 
 typedef struct {
   Host* host;
-  const MidiFile* song;
+  const PlaySong* song;
   const PlayHow* how;
   SoundFile* sound;
   PlayResult* result;
@@ -26,7 +27,7 @@ typedef struct {
   const float* right;
   size_t next_event;
   uint64_t at;           // [frames]
-  uint64_t song_frames;  // To the last message and with it
+  uint64_t song_frames;  // To the last event and with it
   uint64_t end;          // Where to stop at the latest
   uint64_t needed_quiet; // Silent frames that end it
   uint64_t quiet;        // Silent frames in a row
@@ -59,12 +60,13 @@ static bool is_interrupted(void) {
 
 static bool queue_events(Play* play, uint32_t n) {
   for (; play->next_event < play->song->n_events; ++play->next_event) {
-    const MidiEvent* const event = &play->song->events[play->next_event];
-    const uint64_t frame = to_frames(event->time_s, play->how->rate_hz);
+    const PlayEvent event = play->song->event(play->song->song, play->next_event);
+    const uint64_t frame = to_frames(event.time_s, play->how->rate_hz);
     if (frame >= play->at + n) {
       break;
     }
-    if (!host_midi(play->host, (uint32_t)(frame - play->at), event->bytes, event->size)) {
+    if (!host_atom(play->host, (uint32_t)(frame - play->at), play->song->type_uri, event.body,
+                   event.size)) {
       return fail(play, "%s", host_error(play->host));
     }
   }
@@ -140,8 +142,8 @@ static bool play_all(Play* play) {
 }
 
 static void plan_end(Play* play) {
-  const size_t n_events = play->song->n_events;
-  const double last_s = n_events ? play->song->events[n_events - 1].time_s : 0.0;
+  const PlaySong* const song = play->song;
+  const double last_s = song->n_events ? song->event(song->song, song->n_events - 1).time_s : 0.0;
   const bool has_tail = play->how->tail_s >= 0;
   const double tail_s = has_tail ? play->how->tail_s : PLAY_MAX_TAIL_S;
   play->song_frames = to_frames(last_s, play->how->rate_hz) + 1;
@@ -149,8 +151,17 @@ static void plan_end(Play* play) {
   play->needed_quiet = has_tail ? UINT64_MAX : to_frames(SILENCE_S, play->how->rate_hz);
 }
 
+static PlayEvent midi_event(const void* song, size_t i) {
+  const MidiEvent* const event = &((const MidiFile*)song)->events[i];
+  return (PlayEvent){event->time_s, event->bytes, event->size};
+}
+
+PlaySong play_midi(const MidiFile* file) {
+  return (PlaySong){LV2_MIDI__MidiEvent, file, file->n_events, midi_event};
+}
+
 bool play(Host* host,
-          const MidiFile* song,
+          const PlaySong* song,
           const PlayHow* how,
           SoundFile* sound,
           PlayResult* result,

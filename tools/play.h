@@ -12,12 +12,26 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/** An event of a song. */
+typedef struct {
+  double time_s;    ///< From the start [s], ≥ 0
+  const void* body; ///< Of its atom, as long-lived as the song
+  uint32_t size;    ///< [bytes]
+} PlayEvent;
+
+/** What is played. */
+typedef struct {
+  const char* type_uri; ///< Of the atoms that are sent
+  const void* song;
+  size_t n_events;
+  PlayEvent (*event)(const void* song, size_t i); ///< The i-th in order of time
+} PlaySong;
+
 /** How to play. */
 typedef struct {
   double rate_hz; ///< The host's [Hz]
   uint32_t block; ///< Frames in a run [frames], 1 … max_block of the host
-  double
-      tail_s; ///< Sound after the last message [s]; below 0: until silent, at most PLAY_MAX_TAIL_S
+  double tail_s; ///< Sound after the last event [s]; below 0: until silent, at most PLAY_MAX_TAIL_S
   bool shows_progress; ///< On stderr
 } PlayHow;
 
@@ -28,13 +42,16 @@ typedef struct {
   double run_s;      ///< Time spent in the plugin [s]
 } PlayResult;
 
+/** @return The file as play() takes it, good as long as the file is */
+PlaySong play_midi(const MidiFile* file);
+
 /** The longest tail when none is asked for [s]. */
 #define PLAY_MAX_TAIL_S 10.0
 
 /**
-   Play a song, each message on the frame nearest to its time.
+   Play a song, each event on the frame nearest to its time.
 
-   Silence is a quarter of a second below −100 dBFS after the last message; the frame where it is
+   Silence is a quarter of a second below −100 dBFS after the last event; the frame where it is
    full is the last one. Nothing here depends on the block but the plugin.
    @param sound        Where the sound goes
    @param[out] result  Undefined on failure
@@ -44,7 +61,7 @@ typedef struct {
    SIGTERM, if blocked by the caller, is pending.
 */
 bool play(Host* host,
-          const MidiFile* song,
+          const PlaySong* song,
           const PlayHow* how,
           SoundFile* sound,
           PlayResult* result,

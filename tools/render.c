@@ -8,6 +8,7 @@
 #include "tools/play.h"
 #include "tools/render_options.h"
 #include "tools/scene_render.h"
+#include "tools/score_render.h"
 #include "tools/setting.h"
 #include "tools/soundfile.h"
 
@@ -18,10 +19,10 @@
 
 static const double USUAL_RATE_HZ = 48000.0;
 
-/* What sounds: a host that plays a song, or a scene. */
+/* What sounds: a host that plays a song or score, or a scene. */
 typedef struct {
   Host* host;
-  const MidiFile* song;
+  PlaySong song;
   Scene* scene;
   double rate_hz;
 } Source;
@@ -40,18 +41,33 @@ static Host* make_host(const RenderOptions* self, double rate_hz) {
   return host;
 }
 
-static bool prepare(const RenderOptions* self, Host* host) {
-  if (self->preset && !host_preset(host, self->preset)) {
-    args_fail(&self->args, 0, "%s; --list-presets names them", host_error(host));
-    return false;
+static int load_preset(const RenderOptions* self, const Score* score, Host* host) {
+  if (self->preset) {
+    return host_preset(host, self->preset)
+               ? ARGS_OK
+               : args_fail(&self->args, ARGS_USAGE, "%s; --list-presets names them",
+                           host_error(host));
+  }
+  return !score || score_render_load_preset(&self->args, self->in, score, host) ? ARGS_OK
+                                                                                : ARGS_FAILURE;
+}
+
+/* The command line has the last word. */
+static int prepare(const RenderOptions* self, const Score* score, Host* host) {
+  const int code = load_preset(self, score, host);
+  if (code) {
+    return code;
   }
   (void)host_set_freewheel(host, true);
+  if (score && !score_render_set(&self->args, self->in, score, host)) {
+    return ARGS_FAILURE;
+  }
   for (size_t i = 0; i < self->n_sets; ++i) {
     if (!setting_apply(&self->args, host, self->sets[i])) {
-      return false;
+      return ARGS_USAGE;
     }
   }
-  return true;
+  return ARGS_OK;
 }
 
 static void report(const RenderOptions* self, const Source* source, const PlayResult* result) {
@@ -78,7 +94,7 @@ static bool play_source(const RenderOptions* self,
                              error_size);
   }
   const PlayHow how = {source->rate_hz, (uint32_t)self->block, self->tail_s, shows_progress};
-  return play(source->host, source->song, &how, sound, result, error, error_size);
+  return play(source->host, &source->song, &how, sound, result, error, error_size);
 }
 
 static int play_to_file(const RenderOptions* self, const Source* source) {
@@ -120,29 +136,46 @@ static int list_presets(Host* host) {
   return ARGS_OK;
 }
 
-static int render_with_host(const RenderOptions* self, const MidiFile* song) {
+static int render_with_host(const RenderOptions* self, PlaySong song, const Score* score) {
   Source source = {.song = song, .rate_hz = self->rate_hz ? (double)self->rate_hz : USUAL_RATE_HZ};
   source.host = make_host(self, source.rate_hz);
   if (!source.host) {
     return ARGS_FAILURE;
   }
-  const int code = self->lists_presets           ? list_presets(source.host)
-                   : !prepare(self, source.host) ? ARGS_USAGE
-                                                 : play_uninterrupted(self, &source);
+  int code = ARGS_OK;
+  if (self->lists_presets) {
+    code = list_presets(source.host);
+  } else {
+    code = prepare(self, score, source.host);
+    code = code ? code : play_uninterrupted(self, &source);
+  }
   host_free(source.host);
+  return code;
+}
+
+static int render_midi(const RenderOptions* self) {
+  char error[512] = "";
+  MidiFile* const file = midifile_new(self->in, error, sizeof(error));
+  const int code = file ? render_with_host(self, play_midi(file), NULL)
+                        : args_fail(&self->args, ARGS_FAILURE, "%s", error);
+  midifile_free(file);
+  return code;
+}
+
+static int render_score(const RenderOptions* self) {
+  char error[SCORE_ERROR_SIZE] = "";
+  Score* const score = score_new(self->in, error, sizeof(error));
+  const int code = score ? render_with_host(self, score_render_song(score), score)
+                         : args_fail(&self->args, ARGS_FAILURE, "%s", error);
+  score_free(score);
   return code;
 }
 
 static int render_song(const RenderOptions* self) {
   if (self->lists_presets) {
-    return render_with_host(self, NULL);
+    return render_with_host(self, (PlaySong){0}, NULL);
   }
-  char error[512] = "";
-  MidiFile* const song = midifile_new(self->in, error, sizeof(error));
-  const int code =
-      song ? render_with_host(self, song) : args_fail(&self->args, ARGS_FAILURE, "%s", error);
-  midifile_free(song);
-  return code;
+  return score_render_is_score(self->in) ? render_score(self) : render_midi(self);
 }
 
 static int play_scene(const RenderOptions* self, const Source* source) {

@@ -1,5 +1,5 @@
 /**
-   `hooke render`: a MIDI file or a scene in, a sound file out.
+   `hooke render`: a MIDI file, a score or a scene in, a sound file out.
 */
 #ifndef HOOKE_TOOLS_RENDER_H
 #define HOOKE_TOOLS_RENDER_H

@@ -2,35 +2,41 @@
 
 #include "tools/render.h"
 #include "tools/scene_render.h"
+#include "tools/score_render.h"
 #include "tools/soundfile.h"
 
 #include <stdlib.h>
 
 const char render_help[] =
     "usage: hooke render [OPTION]... IN.mid OUT.wav\n"
+    "       hooke render [OPTION]... IN.score OUT.wav\n"
     "       hooke render [OPTION]... IN.scene OUT.wav\n"
     "\n"
-    "Play a Standard MIDI File with a plugin, or the masses and springs of a scene, and write "
-    "what\n"
-    "sounds. OUT ends in .wav, .flac or .ogg.\n"
+    "Play a Standard MIDI File or a guitarist's score with a plugin, or the masses and springs\n"
+    "of a scene, and write what sounds. OUT ends in .wav, .flac or .ogg. For what a score may "
+    "say,\n"
+    "see hooke help score.\n"
     "\n"
-    "For both:\n"
+    "For all:\n"
     "  --rate HZ           sample rate, 48000 or the scene's own by default\n"
     "  --bits N            16, 24 or 32 (float); by default 32 for .wav, 24 for .flac\n"
     "  --quiet             write nothing to the terminal but errors\n"
     "\n"
-    "For a MIDI file:\n"
-    "  --preset NAME       start from a preset, by its name or URI\n"
-    "  --set SYMBOL=VALUE  set a control, after the preset; may be repeated\n"
+    "For a MIDI file or a score:\n"
+    "  --preset NAME       start from a preset, by its name or URI; a score's own is not loaded\n"
+    "  --set SYMBOL=VALUE  set a control, after the preset and what a score sets; may be repeated\n"
     "  --block N           frames in a block, 256 by default\n"
-    "  --tail S            seconds after the last message; by default until silent, at most 10\n"
-    "  --plugin URI        the plugin, urn:hooke:strings by default\n"
+    "  --tail S            seconds after the last event; by default until silent, at most 10\n"
+    "  --plugin URI        the plugin, by default urn:hooke:strings for a MIDI file and\n"
+    "                      urn:hooke:guitar for a score\n"
     "  --list-presets      write the names of the presets, and no sound\n"
     "\n"
     "For a scene:\n"
     "  --anyway            render it even if it is unstable, as long as its numbers are finite\n"
     "\n"
     "Returns 0 when the sound is written, 3 for a scene that is unstable, and 1 or 2 otherwise.\n";
+
+static const char STRINGS_PLUGIN[] = "urn:hooke:strings";
 
 enum { PRESET, SET, RATE, BLOCK, TAIL, BITS, PLUGIN, LIST_PRESETS, QUIET, ANYWAY };
 
@@ -107,16 +113,21 @@ static bool is_for_songs(int index) {
          index == LIST_PRESETS;
 }
 
+static bool is_score(const RenderOptions* self) {
+  return self->in && score_render_is_score(self->in);
+}
+
 /* An option that would do nothing is a mistake. */
 static bool check_kind(const RenderOptions* self, int song_option) {
   const bool is_scene = self->in && scene_render_is_scene(self->in);
   if (is_scene && song_option >= 0) {
-    args_fail(&self->args, 0, "found %s for a scene, expected it for a MIDI file only",
+    args_fail(&self->args, 0, "found %s for a scene, expected it for a MIDI file or a score only",
               options[song_option].name);
     return false;
   }
   if (!is_scene && self->is_anyway) {
-    args_fail(&self->args, 0, "found --anyway for a MIDI file, expected it for a scene only");
+    args_fail(&self->args, 0, "found --anyway for a %s, expected it for a scene only",
+              is_score(self) ? "score" : "MIDI file");
     return false;
   }
   return true;
@@ -125,7 +136,6 @@ static bool check_kind(const RenderOptions* self, int song_option) {
 bool render_options_read(RenderOptions* self, int argc, char** argv) {
   *self =
       (RenderOptions){.args = {.command = "hooke render", .words = argv + 1, .options = options},
-                      .plugin = "urn:hooke:strings",
                       .block = 256,
                       .tail_s = -1.0};
   self->sets = calloc((size_t)argc + 1, sizeof(*self->sets));
@@ -142,6 +152,9 @@ bool render_options_read(RenderOptions* self, int argc, char** argv) {
   }
   if (!check_kind(self, song_option)) {
     return false;
+  }
+  if (!self->plugin) {
+    self->plugin = is_score(self) ? SCORE_RENDER_PLUGIN : STRINGS_PLUGIN;
   }
   if (self->lists_presets) {
     return true;

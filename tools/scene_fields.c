@@ -54,14 +54,8 @@ static bool is_name(const char* word) {
   return true;
 }
 
-/* Of decimals only; hexadecimal numbers, infinities and NaN have other letters. */
 static bool read_number(const char* word, const Rule* rule, double* number) {
-  char* end = NULL;
-  if (word[strspn(word, "+-.0123456789eE")]) {
-    return false;
-  }
-  *number = strtod(word, &end);
-  return end != word && !*end && *number >= rule->min && *number <= rule->max;
+  return scene_text_number(word, rule->min, rule->max, number);
 }
 
 static bool read_count(const char* word, const Rule* rule, uint32_t* count) {

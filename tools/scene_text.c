@@ -3,9 +3,11 @@
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char BLANKS[] = " \t\r\v\f";
+static const char BLANKS_AND_COMMENT[] = " \t\r\v\f#";
 static const char BYTE_ORDER_MARK[] = "\xef\xbb\xbf";
 
 enum { CHUNK = 1 << 16, QUOTED_LETTERS = 40 };
@@ -73,7 +75,9 @@ bool scene_text_is_sound(SceneText* text) {
 
 char* scene_text_next_word(SceneText* text) {
   char* const word = text->at + strspn(text->at, BLANKS);
-  char* const end = word + strcspn(word, " \t\r\v\f#");
+  char* const end =
+      *word == '#' ? word
+                   : word + strcspn(word, text->is_comment_apart ? BLANKS : BLANKS_AND_COMMENT);
   if (end == word) {
     text->at = word + strlen(word);
     return NULL;
@@ -83,6 +87,15 @@ char* scene_text_next_word(SceneText* text) {
   text->at = is_last ? end + strlen(end) : end + 1;
   *end = '\0';
   return word;
+}
+
+bool scene_text_number(const char* word, double min, double max, double* number) {
+  char* end = NULL;
+  if (word[strspn(word, "+-.0123456789eE")]) {
+    return false;
+  }
+  *number = strtod(word, &end);
+  return end != word && !*end && *number >= min && *number <= max;
 }
 
 const char* scene_text_quote(const char* word, char quote[SCENE_TEXT_QUOTE_SIZE]) {

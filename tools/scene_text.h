@@ -20,11 +20,13 @@ typedef struct {
   const char* path; ///< For messages
   char* error;      ///< Where they go
   size_t error_size;
-  Bytes bytes;   ///< The text; words in it are ended by NUL as they are found
-  size_t next;   ///< Where the next line begins
-  char* at;      ///< In the line, which is ended by NUL
-  size_t length; ///< Of the line [bytes]
-  uint32_t line; ///< Its number, from 1; 0 before the first
+  Bytes bytes;           ///< The text; words in it are ended by NUL as they are found
+  size_t next;           ///< Where the next line begins
+  char* at;              ///< In the line, which is ended by NUL
+  size_t length;         ///< Of the line [bytes]
+  uint32_t line;         ///< Its number, from 1; 0 before the first
+  bool is_comment_apart; ///< Whether '#' begins a comment only where a word could begin; false at
+                         ///< first: it does so everywhere
 } SceneText;
 
 /**
@@ -46,6 +48,10 @@ bool scene_text_is_sound(SceneText* text);
 
 /** @return The next word, as long-lived as the text; NULL at the end of the line or a comment */
 char* scene_text_next_word(SceneText* text);
+
+/** Read a number in decimals; hexadecimal ones, infinities and NaN are none.
+    @return false, and `number` undefined, if `word` is not wholly a number from `min` to `max` */
+bool scene_text_number(const char* word, double min, double max, double* number);
 
 /** Write `word` in quotes, cut where it is long and without control characters; NULL is the end of
  * a line. @return `quote` */

@@ -24,7 +24,6 @@ set_number(const Args* args, Host* host, const char* symbol, const char* text, H
 
 bool setting_apply(const Args* args, Host* host, const char* setting) {
   char symbol[128];
-  HostRange range = {0};
   const char* const equals = strchr(setting, '=');
   const size_t length = equals ? (size_t)(equals - setting) : 0;
   if (length == 0 || length >= sizeof(symbol)) {
@@ -33,9 +32,18 @@ bool setting_apply(const Args* args, Host* host, const char* setting) {
   }
   memcpy(symbol, setting, length);
   symbol[length] = '\0';
-  if (!host_range(host, symbol, &range)) {
+  if (!host_range(host, symbol, &(HostRange){0})) {
     args_fail(args, 0, "--set: found '%s', expected the symbol of a control input", symbol);
     return false;
   }
-  return set_number(args, host, symbol, equals + 1, range);
+  return setting_set(args, host, symbol, equals + 1);
+}
+
+bool setting_set(const Args* args, Host* host, const char* symbol, const char* text) {
+  HostRange range = {0};
+  if (!host_range(host, symbol, &range)) {
+    args_fail(args, 0, "found '%s', expected the symbol of a control input", symbol);
+    return false;
+  }
+  return set_number(args, host, symbol, text, range);
 }

@@ -17,4 +17,7 @@
 */
 bool setting_apply(const Args* args, Host* host, const char* setting);
 
+/** The same in two words: a symbol, and the text of a value. */
+bool setting_set(const Args* args, Host* host, const char* symbol, const char* text);
+
 #endif
