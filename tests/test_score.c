@@ -171,13 +171,12 @@ static void settings_keep_their_order(void** state) {
     double value;
     uint32_t line;
   } expected[] = {
-      {"level", "-6.5", 0, 2},   {"string1", NULL, 64, 3},   {"string2", NULL, 58, 3},
-      {"string3", NULL, 54, 3},  {"string4", NULL, 50.5, 3}, {"string5", NULL, 35, 3},
-      {"string6", NULL, 127, 3}, {"capo", NULL, 2, 4},       {"level", "loud", 0, 6},
+      {"level", "-6.5", 0, 2},   {"string1", NULL, 64, 3}, {"string2", NULL, 58, 3},
+      {"string3", NULL, 54, 3},  {"string4", NULL, 50, 3}, {"string5", NULL, 35, 3},
+      {"string6", NULL, 127, 3}, {"capo", NULL, 2, 4},     {"level", "loud", 0, 6},
   };
-  Score* const score =
-      scores_read("0 ring 1\nset level -6.5\ntuning E4 bb3 F#3 50.5 Cb2 G9\ncapo 2\n"
-                  "preset  Nylon \t Strings # a comment\nset level loud\n");
+  Score* const score = scores_read("0 ring 1\nset level -6.5\ntuning E4 bb3 F#3 50 Cb2 G9\ncapo 2\n"
+                                   "preset  Nylon \t Strings # a comment\nset level loud\n");
   assert_int_equal(score->n_settings, sizeof(expected) / sizeof(expected[0]));
   for (size_t i = 0; i < score->n_settings; ++i) {
     const ScoreSetting* const setting = &score->settings[i];

@@ -54,6 +54,9 @@ static int load_preset(const RenderOptions* self, const Score* score, Host* host
 
 /* The command line has the last word. */
 static int prepare(const RenderOptions* self, const Score* score, Host* host) {
+  if (score && !score_render_is_playable(&self->args, host)) {
+    return ARGS_USAGE;
+  }
   const int code = load_preset(self, score, host);
   if (code) {
     return code;

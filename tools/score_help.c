@@ -26,7 +26,7 @@ const char score_help[] =
     "  tuning N N N N N N  the open strings from the highest, as E4, F#3, Bb2 (C4 is 60) or by "
     "MIDI\n"
     "                    number, fractions too: the ports string1 to string6\n"
-    "  capo FRET         the port capo\n"
+    "  capo FRET         where all frets are counted from: the port capo\n"
     "  set SYMBOL VALUE  any control port\n"
     "  preset NAME       loaded before all that is set\n"
     "With a time\n"

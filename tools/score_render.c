@@ -34,6 +34,22 @@ bool score_render_is_score(const char* path) {
   return ending && !strcasecmp(ending, ENDING);
 }
 
+bool score_render_is_playable(const Args* args, Host* host) {
+  LilvNode* const type = lilv_new_uri(host_world(host), GUITAR_EVENT_URI);
+  const LilvPlugin* const plugin = host_plugin(host);
+  bool is_playable = false;
+  for (uint32_t i = 0; type && i < lilv_plugin_get_num_ports(plugin); ++i) {
+    const LilvPort* const port = lilv_plugin_get_port_by_index(plugin, i);
+    is_playable = is_playable || lilv_port_supports_event(plugin, port, type);
+  }
+  lilv_node_free(type);
+  if (!is_playable) {
+    args_fail(args, 0, "found <%s>, expected a plugin that plays scores, as <%s>",
+              lilv_node_as_uri(lilv_plugin_get_uri(plugin)), SCORE_RENDER_PLUGIN);
+  }
+  return is_playable;
+}
+
 bool score_render_load_preset(const Args* args, const char* path, const Score* score, Host* host) {
   char place[PLACE_SIZE];
   if (!score->preset || host_preset(host, score->preset)) {

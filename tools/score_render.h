@@ -17,6 +17,9 @@
 /** @return Whether `path` is that of a score, by its ending */
 bool score_render_is_score(const char* path);
 
+/** Say whether the plugin takes the events of scores. @return false after a line on stderr */
+bool score_render_is_playable(const Args* args, Host* host);
+
 /**
    Load the score's preset.
 

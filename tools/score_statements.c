@@ -68,7 +68,7 @@ static bool take_tuning(ScoreReader* reader) {
 static bool take_capo(ScoreReader* reader) {
   ScoreSetting setting = {.symbol = "capo"};
   return is_first(reader, "capo", &reader->capo_line) &&
-         score_words_number(&reader->text, SCORE_FRET, &setting.value) &&
+         score_words_number(&reader->text, SCORE_CAPO, &setting.value) &&
          score_words_end(&reader->text) && add_setting(reader, setting);
 }
 

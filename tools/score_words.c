@@ -18,6 +18,7 @@ typedef struct {
 static const Rule rules[] = {
     [SCORE_STRING] = {"a string from 1, the highest, to 6", 1, SCORE_STRINGS, true},
     [SCORE_FRET] = {"a fret from 0 to 24", 0, 24, false},
+    [SCORE_CAPO] = {"a capo at a whole fret from 0 to 24", 0, 24, true},
     [SCORE_SEMITONES] = {"a bend from -12 to 24 semitones", -12, 24, false},
     [SCORE_DEPTH] = {"a depth from 0 to 12 semitones", 0, 12, false},
     [SCORE_NODE] = {"a whole number from 2 to 20, of the harmonic", 2, 20, true},
@@ -79,7 +80,7 @@ static bool read_named_note(const char* word, double* note) {
 
 bool score_words_note(SceneText* text, double* note) {
   const char* const word = scene_text_next_word(text);
-  return (word && (read_named_note(word, note) || scene_text_number(word, 0.0, MAX_NOTE, note))) ||
+  return (word && (read_named_note(word, note) || read_whole(word, 0.0, MAX_NOTE, note))) ||
          scene_text_fail(text, word, A_NOTE);
 }
 

@@ -15,6 +15,7 @@ typedef enum {
   SCORE_NOTHING, ///< No number at all
   SCORE_STRING,
   SCORE_FRET,
+  SCORE_CAPO,
   SCORE_SEMITONES,
   SCORE_DEPTH,
   SCORE_NODE,
