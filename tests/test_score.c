@@ -212,8 +212,7 @@ static void line_ends_tabs_and_marks_do_not_matter(void** state) {
   (void)state;
   static const char* const texts[] = {
       "1 fret 6 3\r\n2 lift 6\r\n",
-      "\xef\xbb\xbf"
-      "1 fret 6 3\n2 lift 6",
+      "\xef\xbb\xbf# a mark\n1 fret 6 3\n2 lift 6",
       "\t1\tfret  6\v3\t# why\n\n\n \n2 lift 6 #",
       "#\n2 lift 6\n1.0 fret 6. 3e0\n",
       "01.00 fret +6 +3\r\r\n2. lift 6\r",

@@ -104,8 +104,8 @@ static void fill(Score* score, const Entry* entries, size_t n) {
       *line = event->line;
     }
     score->events[score->n_events++] = *event;
+    score->duration_s = event->time_s;
   }
-  score->duration_s = score->events[score->n_events - 1].time_s;
 }
 
 static bool make(ScoreReader* reader, Place* places, Entry* entries, size_t n, Score* score) {

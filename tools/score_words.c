@@ -70,11 +70,12 @@ static bool read_named_note(const char* word, double* note) {
   if (!letter) {
     return false;
   }
+  const long key = (letter - letters) / 2;
   const int step = word[1] == '#' ? 1 : word[1] == 'b' ? -1 : 0;
   if (!read_whole(word + (step ? 2 : 1), -1.0, 9.0, &octave)) {
     return false;
   }
-  *note = 12.0 * (octave + 1.0) + semitones[(letter - letters) / 2] + step;
+  *note = 12.0 * (octave + 1.0) + semitones[key] + step;
   return *note >= 0.0 && *note <= MAX_NOTE;
 }
 
