@@ -109,22 +109,35 @@ static void lengthen(GuitarString* string, const GuitarPatch* patch) {
   }
 }
 
+/* What comes in the middle of a piece finds the motion where it is, not at the end of the piece. */
+static void halt(GuitarString* string) {
+  if (string->is_moving && string->n_piece > 0) {
+    string->motion = string->begun;
+    guitar_motion_go(&string->motion, string->n_piece - string->n_until_piece);
+  }
+  string->n_piece = 0;
+}
+
 /* Something in its motion has changed: its pieces begin now. */
 static void start(GuitarString* string, const GuitarPatch* patch) {
   shorten(string, patch);
   string->is_moving = true;
   string->n_until_piece = 0;
+  string->n_fade = string->n_gesture;
 }
 
 /* The next piece of its motion, or after the last the masses that it has room for. */
 static void begin_piece(GuitarString* string, const GuitarPatch* patch) {
+  string->n_piece = 0;
   if (guitar_motion_is_still(&string->motion)) {
     string->is_moving = false;
     lengthen(string, patch);
     retune(string, patch, string->n_gesture);
   } else {
-    string->n_until_piece = guitar_motion_piece(&string->motion);
-    guitar_motion_go(&string->motion, string->n_until_piece);
+    string->begun = string->motion;
+    string->n_piece = guitar_motion_piece(&string->motion);
+    string->n_until_piece = string->n_piece;
+    guitar_motion_go(&string->motion, string->n_piece);
     retune(string, patch, string->n_until_piece);
   }
 }
@@ -165,6 +178,7 @@ void guitar_string_reset(GuitarString* string) {
   wire_sleep(&string->wire);
   wire_choke(&string->wire, false);
   string->motion = (GuitarMotion){0};
+  ramp_init(&string->touch, 0.0f);
   string->damper = GUITAR_RINGING;
   string->n_damped = 0;
   string->n_touched = 0;
@@ -186,6 +200,7 @@ void guitar_string_follow(GuitarString* string, const GuitarPatch* patch, uint32
     shorten(string, patch);
     retune(string, patch, string->n_fade);
     string->is_moving = true;
+    string->n_piece = 0;
     string->n_until_piece = string->n_fade;
   }
 }
@@ -195,6 +210,7 @@ void guitar_string_slide(GuitarString* string,
                          double fret,
                          uint32_t n_frames) {
   const bool is_at_once = !string->wire.is_awake && n_frames <= string->n_gesture;
+  halt(string);
   guitar_line_to(&string->motion.fret, fret, is_at_once ? 0 : n_frames);
   start(string, patch);
 }
@@ -204,6 +220,7 @@ void guitar_string_bend(GuitarString* string,
                         double semitones,
                         uint32_t n_frames) {
   const bool is_at_once = !string->wire.is_awake && n_frames <= string->n_gesture;
+  halt(string);
   guitar_line_to(&string->motion.bend, semitones, is_at_once ? 0 : n_frames);
   start(string, patch);
 }
@@ -212,6 +229,7 @@ void guitar_string_vibrato(GuitarString* string,
                            const GuitarPatch* patch,
                            double depth,
                            double rate) {
+  halt(string);
   guitar_line_to(&string->motion.depth, depth, string->n_gesture);
   string->motion.rate = rate;
   start(string, patch);

@@ -34,13 +34,15 @@ typedef enum {
 /** Zero is one that is asleep and has no memory. */
 typedef struct {
   Wire wire;
-  GuitarMotion motion;
+  GuitarMotion motion; /**< As it will be at the end of its piece, while it is moving */
+  GuitarMotion begun;  /**< As it was at the beginning of it */
   GuitarReading reading;
   GuitarDamper damper;
   double open;            /**< MIDI note of the open string */
   uint32_t n_gesture;     /**< Frames that a gesture takes */
   uint32_t n_fade;        /**< Frames that the next fade of the pickups takes */
   uint32_t n_open;        /**< Masses of the open string that it was strung as */
+  uint32_t n_piece;       /**< Frames of its piece; 0: it is in none */
   uint32_t n_until_piece; /**< Frames until the next piece of its motion, while it is moving */
   uint32_t n_damped;      /**< Frames until what damps it lifts; 0: it does not lift by itself */
   uint32_t n_touched;     /**< Frames until the touch is over */
