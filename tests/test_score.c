@@ -104,9 +104,9 @@ static const struct {
     {"0 strum down x X 0 2 x x spread 0",
      "0 DAMP 6 inf 0 0; 0 DAMP 5 inf 0 0; 0 FRET 4 0 0 0; 0 FRET 3 2 0 0; 0 DAMP 2 inf 0 0; "
      "0 DAMP 1 inf 0 0; 0 PLUCK 4 0.7 nan nan; 0 PLUCK 3 0.7 nan nan;"},
-    {"tempo 60\n0 strum down x x x x 0 0 spread 0.5b",
+    {"tempo 240\n0 strum down x x x x 0 0 spread 0.5b",
      "0 DAMP 6 inf 0 0; 0 DAMP 5 inf 0 0; 0 DAMP 4 inf 0 0; 0 DAMP 3 inf 0 0; 0 FRET 2 0 0 0; "
-     "0 FRET 1 0 0 0; 0 PLUCK 2 0.7 nan nan; 0.5 PLUCK 1 0.7 nan nan;"},
+     "0 FRET 1 0 0 0; 0 PLUCK 2 0.7 nan nan; 0.125 PLUCK 1 0.7 nan nan;"},
 };
 
 static void every_event_is_what_its_line_says(void** state) {
