@@ -57,6 +57,14 @@ int32_t fretboard_finger(const FretboardString* string, uint32_t key) {
   return (int32_t)lround(key - string->open);
 }
 
+int32_t fretboard_reach(int32_t position, int32_t lowest, int32_t highest) {
+  const int32_t last = highest - FRETBOARD_REACH;
+  if (lowest < position || lowest < last) {
+    return lowest;
+  }
+  return last > position ? last : position;
+}
+
 /* Insertion sorts: there are few, and what is equal keeps its order. */
 static void sort_notes(Search* search, const uint32_t* keys) {
   for (uint32_t n = 0; n < search->n_notes; ++n) {
@@ -144,16 +152,9 @@ static void weigh_notes(Search* search) {
   }
 }
 
-/* Where the hand goes for these fingers: no further than it must. */
 static int32_t position_for(const Search* search, const Part* part) {
-  if (part->lowest == 0) {
-    return search->position;
-  }
-  const int32_t last = part->highest - FRETBOARD_REACH;
-  if (part->lowest < search->position || part->lowest < last) {
-    return part->lowest;
-  }
-  return last > search->position ? last : search->position;
+  return part->lowest == 0 ? search->position
+                           : fretboard_reach(search->position, part->lowest, part->highest);
 }
 
 static double cost_of_hand(const Search* search, const Part* part) {
@@ -259,14 +260,14 @@ static uint32_t shared_place(const Search* search, uint32_t note) {
 }
 
 FretboardGrip
-fretboard_grip(const Fretboard* board, uint32_t position, const uint32_t* keys, uint32_t n_keys) {
+fretboard_grip(const Fretboard* board, int32_t position, const uint32_t* keys, uint32_t n_keys) {
   assert(n_keys <= FRETBOARD_NOTES && board->n_strings >= 1 && board->n_strings <= GUITAR_STRINGS);
   FretboardGrip grip = {.position = position};
   Search search = {.board = board,
-                   .position = (int32_t)position,
+                   .position = position,
                    .n_notes = n_keys,
                    .best_cost = (double)INFINITY,
-                   .best_position = (int32_t)position};
+                   .best_position = position};
   if (n_keys == 0) {
     return grip;
   }
@@ -279,7 +280,7 @@ fretboard_grip(const Fretboard* board, uint32_t position, const uint32_t* keys, 
     grip.string[search.given[n]] =
         search.string[place == NO_STRING ? shared_place(&search, n) : place];
   }
-  grip.position = (uint32_t)search.best_position;
+  grip.position = search.best_position;
   grip.n_tries = search.n_tries;
   return grip;
 }

@@ -25,10 +25,10 @@
 #include <stdint.h>
 
 enum {
-  FRETBOARD_NOTES = 8,    /**< Most notes of a chord */
-  FRETBOARD_FRETS = 24,   /**< The highest that a finger is put on */
-  FRETBOARD_REACH = 4,    /**< Frets from the first finger to the last */
-  FRETBOARD_TRIES = 20000 /**< Most tries for a chord */
+  FRETBOARD_NOTES = 8,   /**< Most notes of a chord */
+  FRETBOARD_FRETS = 24,  /**< The highest that a finger is put on */
+  FRETBOARD_REACH = 4,   /**< Frets from the first finger to the last */
+  FRETBOARD_TRIES = 5000 /**< Most tries for a chord */
 };
 
 /** What a string is doing. */
@@ -55,12 +55,16 @@ typedef struct {
 /** Where a chord is played. */
 typedef struct {
   uint32_t string[FRETBOARD_NOTES]; /**< Of each note, in the order given */
-  uint32_t position;                /**< Of the hand, ≥ 1 */
+  int32_t position;                 /**< Of the hand, ≥ 1 */
   uint32_t n_tries;                 /**< What it took to find */
 } FretboardGrip;
 
 /** The finger's fret for a MIDI note on a string: the nearest whole one; < 0: below the string. */
 int32_t fretboard_finger(const FretboardString* string, uint32_t key);
+
+/** Where the hand goes for fingers from fret `lowest` to `highest`, both ≥ 1: no further than it
+    must. */
+int32_t fretboard_reach(int32_t position, int32_t lowest, int32_t highest);
 
 /**
    Find a string for each of `n_keys` different MIDI notes.
@@ -73,6 +77,6 @@ int32_t fretboard_finger(const FretboardString* string, uint32_t key);
    @param n_keys    0 to FRETBOARD_NOTES
 */
 FretboardGrip
-fretboard_grip(const Fretboard* board, uint32_t position, const uint32_t* keys, uint32_t n_keys);
+fretboard_grip(const Fretboard* board, int32_t position, const uint32_t* keys, uint32_t n_keys);
 
 #endif

@@ -123,6 +123,14 @@ static uint32_t index_of(uint32_t* keys, uint32_t* n_keys, uint32_t key) {
   return i;
 }
 
+/* The hand goes where a note is played that it had no choice of. */
+static void follow(Guitarist* guitarist, const Fretboard* board, const GuitaristEvent* event) {
+  const int32_t finger = fretboard_finger(&board->strings[event->string], event->key);
+  if (!has_own_string(guitarist, event->channel) && finger > 0 && finger <= FRETBOARD_FRETS) {
+    guitarist->position = fretboard_reach(guitarist->position, finger, finger);
+  }
+}
+
 /* Give the notes of a frame strings: first those that have no choice, then the rest as a chord. */
 static void choose_strings(Guitarist* guitarist) {
   Fretboard board = look(guitarist);
@@ -136,6 +144,7 @@ static void choose_strings(Guitarist* guitarist) {
       if (event->string == GUITARIST_NO_STRING) {
         index[i] = index_of(keys, &n_keys, event->key);
       } else {
+        follow(guitarist, &board, event);
         board.strings[event->string].use = FRETBOARD_TAKEN;
         board.strings[event->string].played = UINT64_MAX;
       }

@@ -44,7 +44,7 @@ struct Guitarist {
   double tuning_hz;
   double open[GUITAR_STRINGS]; /**< MIDI notes, with the capo */
   uint32_t n_strings;
-  uint32_t position; /**< Fret of the first finger, from the capo */
+  int32_t position; /**< Fret of the first finger, from the capo */
   GuitaristString strings[GUITAR_STRINGS];
   bool is_pedal_down[GUITARIST_CHANNELS];
   GuitaristStrum strum;

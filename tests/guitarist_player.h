@@ -71,4 +71,23 @@ static inline const FakeCall* player_last(const Guitar* guitar, uint32_t verb) {
   return last;
 }
 
+/* From here on what is done counts. */
+static inline Player player_how(GuitaristHow how) {
+  const Player player = player_with(&PLAYER_USUAL);
+  guitarist_set_how(player.guitarist, how);
+  player.guitar->n_calls = 0;
+  return player;
+}
+
+/* The n-th call of a verb. */
+static inline const FakeCall* player_nth(const Guitar* guitar, uint32_t verb, uint32_t n) {
+  for (uint32_t i = 0; i < guitar->n_calls; ++i) {
+    if (guitar->calls[i].verb == verb && n-- == 0) {
+      return &guitar->calls[i];
+    }
+  }
+  fail_msg("not so many calls");
+  return NULL;
+}
+
 #endif

@@ -1,0 +1,228 @@
+#include "tests/guitarist_player.h"
+
+#include <string.h>
+
+enum { HARD = 100, SOFT = 40, LEGATO = 64 };
+
+static void on(Player player, uint32_t channel, uint32_t key, uint32_t velocity) {
+  guitarist_note_on(player.guitarist, channel, key, velocity);
+}
+
+static void off(Player player, uint32_t channel, uint32_t key) {
+  guitarist_note_off(player.guitarist, channel, key);
+}
+
+/* What was done since the n-th call, a letter each and the string: "f0 p0" is fretted and plucked.
+ */
+static void assert_done(Player player, uint32_t* from, const char* expected) {
+  static const char letters[] = "pfhsbvdltmc";
+  char done[1024] = "";
+  size_t length = 0;
+  for (uint32_t i = *from; i < player.guitar->n_calls; ++i) {
+    const FakeCall* const call = &player.guitar->calls[i];
+    assert_true(length + 4 < sizeof done);
+    done[length++] = letters[call->verb];
+    done[length++] = (char)('0' + call->string);
+    done[length++] = ' ';
+  }
+  done[length > 0 ? length - 1 : 0] = '\0';
+  assert_string_equal(done, expected);
+  *from = player.guitar->n_calls;
+}
+
+static void assert_near(double found, double expected) {
+  assert_true(fabs(found - expected) < 1e-9);
+}
+
+/* What a call says but for its time. */
+static void assert_last(Player player, uint32_t verb, uint32_t string, double a, double b) {
+  const FakeCall* const call = player_last(player.guitar, verb);
+  assert_int_equal(call->string, string);
+  assert_near(call->value[0], a);
+  assert_near(call->value[1], b);
+}
+
+static void a_soft_note_is_hammered_on(void** state) {
+  (void)state;
+  for (uint32_t n = 0; n < 2; ++n) {
+    const bool has_channels = n > 0;
+    const uint32_t channel = n;
+    const Player player =
+        player_how((GuitaristHow){.has_channels = has_channels, .legato = LEGATO});
+    uint32_t from = 0;
+    on(player, channel, 60, HARD);
+    player_run(player, 2401);
+    on(player, channel, 62, LEGATO);
+    player_run(player, 100);
+    assert_done(player, &from, "f1 p1 h1");
+    assert_last(player, GUITAR_HAMMER, 1, 3.0, guitar_force(LEGATO));
+    off(player, channel, 62);
+    player_run(player, 100);
+    assert_done(player, &from, "h1");
+    assert_last(player, GUITAR_HAMMER, 1, 1.0, 0.5 * guitar_force(LEGATO));
+    off(player, channel, 60);
+    player_run(player, 100);
+    assert_done(player, &from, "d1");
+    on(player, channel, 60, SOFT); /* There is nothing to hammer onto */
+    player_run(player, 5000);
+    on(player, channel, 62, LEGATO + 1);
+    player_run(player, 100);
+    assert_done(player, &from, has_channels ? "f1 p1 f1 p1" : "f1 p1 f2 p2");
+    player_free(player);
+  }
+}
+
+/* Each of what makes a hammer-on with one channel, just missed. */
+static void other_soft_notes_are_plucked(void** state) {
+  (void)state;
+  const GuitaristHow how = {.legato = LEGATO};
+  uint32_t from = 0;
+  Player player = player_how(how);
+  on(player, 0, 60, SOFT); /* Alone */
+  player_run(player, 2400);
+  on(player, 0, 62, SOFT); /* Too soon */
+  player_run(player, 2401);
+  assert_done(player, &from, "f1 p1 f2 p2");
+  on(player, 0, 64, SOFT); /* With another */
+  on(player, 0, 50, SOFT);
+  player_run(player, 4800);
+  assert_done(player, &from, "f0 p0 f3 p3");
+  on(player, 0, 50, SOFT); /* Again */
+  player_run(player, 100);
+  assert_done(player, &from, "f3 p3");
+  player_free(player);
+  player = player_how(how);
+  from = 0;
+  on(player, 0, 60, SOFT);
+  player_run(player, 4800);
+  on(player, 0, 65, SOFT); /* Five frets */
+  player_run(player, 4800);
+  assert_done(player, &from, "f1 p1 h1");
+  on(player, 0, 71, SOFT); /* Six */
+  player_run(player, 4800);
+  assert_done(player, &from, "f0 p0");
+  on(player, 0, 63, SOFT); /* Below the nut, and no string in reach of the first finger */
+  player_run(player, 4800);
+  assert_done(player, &from, "f2 p2");
+  player_free(player);
+}
+
+/* A string that died away under its key cannot be hammered on, nor one that only the pedal has. */
+static void a_silent_string_is_plucked(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){.has_channels = true, .legato = LEGATO});
+  uint32_t from = 0;
+  on(player, 1, 60, HARD);
+  player_run(player, 4800);
+  player.guitar->strings[1].is_awake = false;
+  on(player, 1, 62, SOFT);
+  player_run(player, 4800);
+  assert_done(player, &from, "f1 p1 f1 p1");
+  guitarist_pedal(player.guitarist, 1, true);
+  off(player, 1, 62);
+  on(player, 1, 64, SOFT);
+  player_run(player, 4800);
+  assert_done(player, &from, "f1 p1");
+  player_free(player);
+}
+
+static void a_trill_takes_one_pluck(void** state) {
+  (void)state;
+  for (uint32_t n = 0; n < 2; ++n) {
+    const Player player = player_how((GuitaristHow){.has_channels = n > 0, .legato = LEGATO});
+    on(player, 1, 60, HARD);
+    player_run(player, 3000);
+    for (uint32_t i = 0; i < 50; ++i) {
+      on(player, 1, 62, SOFT);
+      player_run(player, 1500);
+      off(player, 1, 62);
+      player_run(player, 1500);
+    }
+    assert_int_equal(player_count(player.guitar, GUITAR_PLUCK), 1);
+    assert_int_equal(player_count(player.guitar, GUITAR_HAMMER), 100);
+    assert_int_equal(player_count(player.guitar, GUITAR_DAMP), 0);
+    assert_last(player, GUITAR_HAMMER, 1, 1.0, 0.5 * guitar_force(SOFT));
+    off(player, 1, 60);
+    player_run(player, 1);
+    assert_int_equal(player_count(player.guitar, GUITAR_DAMP), 1);
+    player_free(player);
+  }
+}
+
+/* Three fingers down: each that lifts pulls off to the highest that is left, and one that lifts
+   below the one that sounds is not heard. */
+static void fingers_lift_in_any_order(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){.has_channels = true, .legato = LEGATO});
+  uint32_t from = 0;
+  for (uint32_t key = 60; key < 64; ++key) {
+    on(player, 1, key, key == 60 ? HARD : SOFT);
+    player_run(player, 3000);
+  }
+  off(player, 1, 61);
+  player_run(player, 100);
+  assert_done(player, &from, "f1 p1 h1 h1 h1");
+  off(player, 1, 63);
+  player_run(player, 100);
+  assert_last(player, GUITAR_HAMMER, 1, 3.0, 0.5 * guitar_force(SOFT));
+  off(player, 1, 62);
+  player_run(player, 100);
+  assert_last(player, GUITAR_HAMMER, 1, 1.0, 0.5 * guitar_force(SOFT));
+  assert_done(player, &from, "h1 h1");
+  guitarist_all_notes_off(player.guitarist, 1);
+  off(player, 1, 60);
+  player_run(player, 100);
+  assert_done(player, &from, "d1");
+  player_free(player);
+}
+
+/* Of ten fingers the oldest two are forgotten, and nothing else. */
+static void many_fingers_wait(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){.has_channels = true, .legato = LEGATO});
+  for (uint32_t key = 60; key < 71; ++key) {
+    on(player, 1, key, SOFT);
+    player_run(player, 3000);
+  }
+  for (uint32_t key = 70; key > 62; --key) {
+    off(player, 1, key);
+    player_run(player, 3000);
+    assert_last(player, GUITAR_HAMMER, 1, key - 60.0, 0.5 * guitar_force(SOFT));
+    assert_int_equal(player_count(player.guitar, GUITAR_DAMP), 0);
+  }
+  off(player, 1, 62);
+  player_run(player, 100);
+  assert_int_equal(player_count(player.guitar, GUITAR_DAMP), 1);
+  player_free(player);
+}
+
+static void without_legato_nothing_pulls_off(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){.has_channels = true, .legato = LEGATO});
+  uint32_t from = 0;
+  on(player, 1, 60, HARD);
+  player_run(player, 3000);
+  on(player, 1, 62, SOFT);
+  player_run(player, 3000);
+  guitarist_set_how(player.guitarist, (GuitaristHow){.has_channels = true});
+  off(player, 1, 62);
+  player_run(player, 3000);
+  assert_done(player, &from, "f1 p1 h1 d1");
+  off(player, 1, 60);
+  player_run(player, 3000);
+  assert_done(player, &from, "");
+  player_free(player);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_soft_note_is_hammered_on),
+      cmocka_unit_test(other_soft_notes_are_plucked),
+      cmocka_unit_test(a_silent_string_is_plucked),
+      cmocka_unit_test(a_trill_takes_one_pluck),
+      cmocka_unit_test(fingers_lift_in_any_order),
+      cmocka_unit_test(many_fingers_wait),
+      cmocka_unit_test(without_legato_nothing_pulls_off),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
