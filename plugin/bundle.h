@@ -5,5 +5,6 @@
 #include <lv2/core/lv2.h>
 
 extern const LV2_Descriptor strings_descriptor;
+extern const LV2_Descriptor guitar_descriptor;
 
 #endif

@@ -2,13 +2,17 @@
 
 #include <string.h>
 
-bool events_next(const LV2_Atom_Sequence* sequence, LV2_URID type, uint32_t* offset, Event* event) {
-  if (!sequence || sequence->atom.type != type ||
-      sequence->atom.size < sizeof(LV2_Atom_Sequence_Body)) {
+/* All is copied out before it is read, for hosts align it to four bytes at best. */
+bool events_next(const void* sequence, LV2_URID type, uint32_t* offset, Event* event) {
+  LV2_Atom atom = {0, 0};
+  if (sequence) {
+    memcpy(&atom, sequence, sizeof(atom));
+  }
+  if (!sequence || atom.type != type || atom.size < sizeof(LV2_Atom_Sequence_Body)) {
     return false;
   }
-  const uint32_t n_bytes = sequence->atom.size - (uint32_t)sizeof(LV2_Atom_Sequence_Body);
-  const uint8_t* const bytes = (const uint8_t*)(sequence + 1) + *offset;
+  const uint32_t n_bytes = atom.size - (uint32_t)sizeof(LV2_Atom_Sequence_Body);
+  const uint8_t* const bytes = (const uint8_t*)sequence + sizeof(LV2_Atom_Sequence) + *offset;
   LV2_Atom_Event head;
   if (*offset + sizeof(head) > n_bytes) {
     return false;

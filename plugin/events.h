@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** An event of the control port, copied out, for a host may align it to four bytes. */
+/** An event of the control port, copied out. */
 typedef struct {
   int64_t frame;
   uint32_t type;
@@ -23,11 +23,11 @@ typedef struct {
 /**
    The event `*offset` bytes into a sequence's events, and the offset of the next.
 
-   @param sequence  May be NULL, of another type, or cut short
+   @param sequence  An LV2_Atom_Sequence of any alignment; may be NULL, of another type or cut short
    @param type      URID of atom:Sequence
    @return false when they are over
 */
-bool events_next(const LV2_Atom_Sequence* sequence, LV2_URID type, uint32_t* offset, Event* event);
+bool events_next(const void* sequence, LV2_URID type, uint32_t* offset, Event* event);
 
 /** When it is played: one that comes late or out of order at once, at frame `done`, one past the
  * end at the end. */

@@ -113,7 +113,7 @@ static void write_report(Instrument* self) {
 }
 
 /* Events split the block. */
-static void play_block(Instrument* self, const LV2_Atom_Sequence* control, uint32_t n_frames) {
+static void play_block(Instrument* self, const void* control, uint32_t n_frames) {
   uint32_t done = 0;
   uint32_t offset = 0;
   Event event;

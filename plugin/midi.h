@@ -19,7 +19,15 @@ typedef enum {
 
 /** Controllers. */
 enum {
+  MIDI_VIBRATO = 1,
+  MIDI_DATA_UPPER = 6,  /**< Data entry, upper seven bits */
+  MIDI_DATA_LOWER = 38, /**< And lower ones */
   MIDI_PEDAL = 64,
+  MIDI_SOFT_PEDAL = 67,
+  MIDI_UNREGISTERED_LOWER = 98, /**< Which parameter data entry is for: a maker's own */
+  MIDI_UNREGISTERED_UPPER = 99,
+  MIDI_PARAMETER_LOWER = 100, /**< Or a registered one */
+  MIDI_PARAMETER_UPPER = 101,
   MIDI_ALL_SOUND_OFF = 120,
   MIDI_RESET_CONTROLLERS = 121,
   MIDI_ALL_NOTES_OFF = 123, /**< And the mode messages after it */

@@ -43,7 +43,7 @@ static InstrumentReport report(const void* player) {
   return (InstrumentReport){harp.n_strings, harp.n_masses, harp.headroom};
 }
 
-static const InstrumentKind strings = {
+static const InstrumentKind kind = {
     .n_ports = STRINGS_N_PORTS,
     .meters = STRINGS_PORT_SOUNDING,
     .new = new_player,
@@ -63,7 +63,7 @@ static LV2_Handle instantiate(const LV2_Descriptor* descriptor,
                               const LV2_Feature* const* features) {
   (void)descriptor;
   (void)bundle_path;
-  return instrument_new(&strings, rate, features);
+  return instrument_new(&kind, rate, features);
 }
 
 const LV2_Descriptor strings_descriptor = {

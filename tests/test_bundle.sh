@@ -28,16 +28,18 @@ is_valid() {
 is_found() {
   rm -f "$copy"/*
   cp "$bundle"/*.ttl "$copy"
-  sed "$1" "$bundle/strings.ttl" >"$copy/strings.ttl"
-  ! cmp -s "$bundle/strings.ttl" "$copy/strings.ttl" || fail "nothing was changed by $1"
+  sed "$2" "$bundle/$1.ttl" >"$copy/$1.ttl"
+  ! cmp -s "$bundle/$1.ttl" "$copy/$1.ttl" || fail "nothing was changed by $2"
   ! is_valid "$copy"
 }
 
 is_valid "$bundle" || fail "lv2_validate finds fault with the bundle:
 $said"
-is_found 's/lv2:symbol/lv2:symbool/' || fail 'lv2_validate does not see a property that there is not'
-is_found 's/lv2:index 0 /lv2:index "much" /' || fail 'lv2_validate does not see a text for a number'
-is_found '1s/^/(/' || fail 'lv2_validate does not see a fault of syntax'
+for plugin in strings guitar; do
+  is_found $plugin 's/lv2:symbol/lv2:symbool/' || fail 'lv2_validate does not see a property that there is not'
+  is_found $plugin 's/lv2:index 0 /lv2:index "much" /' || fail 'lv2_validate does not see a text for a number'
+  is_found $plugin '1s/^/(/' || fail 'lv2_validate does not see a fault of syntax'
+done
 
 # By itself it knows no vocabulary, so all that it is asked is whether the file can be read.
 is_read() {
@@ -47,7 +49,7 @@ is_read() {
 for file in "$bundle"/*.ttl; do
   is_read "$file" || fail "sord_validate cannot read $file"
 done
-is_read "$copy/strings.ttl" && fail 'sord_validate does not see a fault of syntax'
+is_read "$copy/guitar.ttl" && fail 'sord_validate does not see a fault of syntax'
 
 # Addresses and types aside, one name is shown.
 shown=$(nm -D --defined-only "$library" | awk '{ print $NF }')

@@ -1,0 +1,136 @@
+/* Hooke Guitar, the LV2 plugin: a guitar and who plays it behind ports, MIDI and the events of a
+ * script, and no physics. */
+#include "core/guitar.h"
+#include "core/guitar_event.h"
+#include "core/guitarist.h"
+#include "plugin/bundle.h"
+#include "plugin/guitar_midi.h"
+#include "plugin/guitar_ports.h"
+#include "plugin/instrument.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define GUITAR_URI "urn:hooke:guitar"
+
+typedef struct {
+  Guitar* guitar;
+  Guitarist* guitarist;
+  GuitarMidi midi;
+  Controls controls;
+} Player;
+
+static void free_player(void* data) {
+  Player* const player = data;
+  guitarist_free(player->guitarist);
+  guitar_free(player->guitar);
+  free(player);
+}
+
+static void* new_player(double rate_hz) {
+  Player* const player = calloc(1, sizeof(Player));
+  if (!player) {
+    return NULL;
+  }
+  player->guitar = guitar_new(rate_hz);
+  player->guitarist = player->guitar ? guitarist_new(player->guitar) : NULL;
+  if (!player->guitarist) {
+    free_player(player);
+    return NULL;
+  }
+  player->midi.guitar = player->guitar;
+  player->midi.guitarist = player->guitarist;
+  guitar_midi_reset(&player->midi);
+  return player;
+}
+
+static void reset(void* data) {
+  Player* const player = data;
+  guitarist_reset(player->guitarist);
+  guitar_reset(player->guitar);
+  guitar_midi_reset(&player->midi);
+}
+
+/* What rings must not notice how it is to be played from now on. */
+static void set(void* data, const Controls* controls, uint32_t n_frames) {
+  Player* const player = data;
+  if (n_frames == 0 || !guitar_ports_are_same_patch(controls, &player->controls)) {
+    const GuitarPatch patch = guitar_ports_patch(controls);
+    guitar_set_patch(player->guitar, &patch, n_frames);
+    guitarist_set_patch(player->guitarist, &patch);
+  }
+  const GuitaristHow how = guitar_ports_how(controls);
+  if (how.has_channels != guitar_ports_how(&player->controls).has_channels) {
+    guitar_midi_centre(&player->midi);
+  }
+  guitarist_set_how(player->guitarist, how);
+  player->controls = *controls;
+}
+
+static void silence(void* data) {
+  const Player* const player = data;
+  guitarist_all_sound_off(player->guitarist);
+}
+
+static void play_midi(void* data, const uint8_t* bytes, uint32_t n_bytes, bool is_muted) {
+  Player* const player = data;
+  guitar_midi_play(&player->midi, bytes, n_bytes, is_muted);
+}
+
+static void play_event(void* data, const uint8_t* body, uint32_t n_bytes, bool is_muted) {
+  const Player* const player = data;
+  GuitarEvent event;
+  if (n_bytes != sizeof(event)) {
+    return;
+  }
+  memcpy(&event, body, sizeof(event));
+  const bool is_heard = event.verb == GUITAR_PLUCK || event.verb == GUITAR_HAMMER;
+  if (!(is_muted && is_heard)) {
+    (void)guitar_event_play(player->guitar, &event);
+  }
+}
+
+static void run(void* data, uint32_t n_frames, float* left, float* right) {
+  const Player* const player = data;
+  guitarist_run(player->guitarist, n_frames, left, right);
+}
+
+static InstrumentReport report(const void* data) {
+  const Player* const player = data;
+  const GuitarReport guitar = guitar_report(player->guitar);
+  return (InstrumentReport){guitar.n_strings, guitar.n_masses, guitar.headroom};
+}
+
+static const InstrumentKind kind = {
+    .n_ports = GUITAR_N_PORTS,
+    .meters = GUITAR_PORT_SOUNDING,
+    .event_uri = GUITAR_EVENT_URI,
+    .new = new_player,
+    .free = free_player,
+    .reset = reset,
+    .read = guitar_ports_read,
+    .set = set,
+    .silence = silence,
+    .play_midi = play_midi,
+    .play_event = play_event,
+    .run = run,
+    .report = report,
+};
+
+static LV2_Handle instantiate(const LV2_Descriptor* descriptor,
+                              double rate,
+                              const char* bundle_path,
+                              const LV2_Feature* const* features) {
+  (void)descriptor;
+  (void)bundle_path;
+  return instrument_new(&kind, rate, features);
+}
+
+const LV2_Descriptor guitar_descriptor = {
+    .URI = GUITAR_URI,
+    .instantiate = instantiate,
+    .connect_port = instrument_connect_port,
+    .activate = instrument_activate,
+    .run = instrument_run,
+    .cleanup = instrument_cleanup,
+};
