@@ -51,19 +51,29 @@ static void reset(void* data) {
   guitar_midi_reset(&player->midi);
 }
 
-/* What rings must not notice how it is to be played from now on. */
-static void set(void* data, const Controls* controls, uint32_t n_frames) {
-  Player* const player = data;
-  if (n_frames == 0 || !guitar_ports_are_same_patch(controls, &player->controls)) {
-    const GuitarPatch patch = guitar_ports_patch(controls);
-    guitar_set_patch(player->guitar, &patch, n_frames);
-    guitarist_set_patch(player->guitarist, &patch);
-  }
+/* Between the modes the guitarist puts the wheels back in their middle, of which a guitar that has
+ * not sounded yet is to show nothing. */
+static void set_how(Player* player, const Controls* controls, bool is_fresh) {
   const GuitaristHow how = guitar_ports_how(controls);
   if (how.has_channels != guitar_ports_how(&player->controls).has_channels) {
     guitar_midi_centre(&player->midi);
   }
   guitarist_set_how(player->guitarist, how);
+  if (is_fresh) {
+    guitar_reset(player->guitar);
+  }
+}
+
+/* How it is played from now on is no new patch to what rings. */
+static void set(void* data, const Controls* controls, uint32_t n_frames) {
+  Player* const player = data;
+  const bool is_fresh = n_frames == 0;
+  set_how(player, controls, is_fresh);
+  if (is_fresh || !guitar_ports_are_same_patch(controls, &player->controls)) {
+    const GuitarPatch patch = guitar_ports_patch(controls);
+    guitar_set_patch(player->guitar, &patch, n_frames);
+    guitarist_set_patch(player->guitarist, &patch);
+  }
   player->controls = *controls;
 }
 

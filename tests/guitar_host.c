@@ -81,10 +81,10 @@ Duo duo_new(const Host* host, double rate_hz) {
   assert_non_null(duo.guitarist);
   const GuitarPatch patch = guitar_patch_of(host);
   guitarist_reset(duo.guitarist);
+  guitarist_set_how(duo.guitarist, guitar_how_of(host));
   guitar_reset(duo.guitar);
   guitar_set_patch(duo.guitar, &patch, 0);
   guitarist_set_patch(duo.guitarist, &patch);
-  guitarist_set_how(duo.guitarist, guitar_how_of(host));
   return duo;
 }
 
