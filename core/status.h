@@ -17,7 +17,8 @@
   X(NO_SUCH_MODE, "there is no such mode")                                                         \
   X(UNREACHABLE, "the pitch lies beyond half the rate, or nothing damps the mode that much")       \
   X(ILL_SCALED, "its numbers differ too widely for the arithmetic")                                \
-  X(NO_CONVERGENCE, "an iteration did not converge")
+  X(NO_CONVERGENCE, "an iteration did not converge")                                               \
+  X(BAD_TEXT, "a text is not as its format asks")
 
 #define STATUS_ENUM(name, text) STATUS_##name,
 typedef enum { STATUS_LIST(STATUS_ENUM) STATUS_COUNT } Status;
