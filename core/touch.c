@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Masses to a side that B reaches, and all that are looked at: two, and those beside them. */
-enum { REACH = 3, N_NEAR = 2 + 2 * REACH };
+/* Masses that the finger is on, those to a side that B reaches, and all that are looked at. */
+enum { N_FINGER = 4, REACH = 3, N_NEAR = N_FINGER + 2 * REACH };
 
 /* What is near the finger: mass `first` + i of the string is at [i]; masses count from 1, and what
  * is at 0 or past N is a wall. */
@@ -50,15 +50,38 @@ static double product(const double* a, const double* b) {
   return sum;
 }
 
+/* Mass i's share of a finger that is `t` past the middle of them: Lagrange's. */
+static double share_of(int i, double t) {
+  const double at = t + N_FINGER / 2 - 1;
+  double share = 1.0;
+  for (int k = 0; k < N_FINGER; ++k) {
+    share *= k != i ? (at - k) / (i - k) : 1.0;
+  }
+  return share;
+}
+
+/* The finger on the masses about it; past a wall the string goes on upside down. */
+static void lay(const Near* near, double t, double* place) {
+  for (int i = 0; i < N_FINGER; ++i) {
+    const int64_t mass = near->first + REACH + i;
+    const int64_t wall = mass < 1 ? 0 : near->n_masses + 1;
+    const int64_t image = 2 * wall - mass - near->first;
+    if (is_mass(near, REACH + i)) {
+      place[REACH + i] += share_of(i, t);
+    } else if (mass != wall && is_mass(near, image)) {
+      place[image] -= share_of(i, t);
+    }
+  }
+}
+
 void touch_act(Chain* chain, double place, double weight) {
   const double at = place * (chain->n_masses + 1.0);
   const double mass = fmin(floor(at), (double)chain->n_masses);
-  const Near near = {(int64_t)mass - REACH, chain->n_masses};
+  const Near near = {(int64_t)mass - (N_FINGER / 2 - 1) - REACH, chain->n_masses};
   double e[N_NEAR] = {0};
   double b[N_NEAR];
   double u[N_NEAR] = {0};
-  e[REACH] = is_mass(&near, REACH) ? 1.0 - (at - mass) : 0.0;
-  e[REACH + 1] = is_mass(&near, REACH + 1) ? at - mass : 0.0;
+  lay(&near, at - mass, e);
   weigh(&near, chain->now, e, b);
   for (int64_t i = 0; i < N_NEAR; ++i) {
     u[i] = is_mass(&near, i) ? (double)chain_velocity(chain, (uint32_t)(near.first + i - 1)) : 0.0;
@@ -69,8 +92,8 @@ void touch_act(Chain* chain, double place, double weight) {
   }
   const double damper = weight * 2.0 * sqrt(chain->now.k1);
   const double taken = damper / (inertia + 0.5 * damper) * product(b, u) / inertia;
-  for (int64_t i = REACH; i <= REACH + 1; ++i) {
-    if (e[i] > 0.0) {
+  for (int64_t i = REACH; i < REACH + N_FINGER; ++i) {
+    if (e[i] != 0.0) {
       const uint32_t m = (uint32_t)(near.first + i - 1);
       const double change = -taken * e[i];
       chain_place(chain, m, (float)((double)chain_position(chain, m) + 0.5 * change),

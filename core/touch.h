@@ -8,7 +8,8 @@
 
        H = ½ uᵀB u + ½ yᵀK y,
 
-   and with e the place, in a straight line between the two masses beside it,
+   and with e the place, laid on the four masses about it, so that partials with a node
+   between two masses do not drive the others,
 
        u ← u − θ e (eᵀB u)/(eᵀB e),   y as it was,
 
