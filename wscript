@@ -279,18 +279,19 @@ def test(bld):
 
 
 def demo(bld):
-    """builds, then renders doc/demo.mid through the plugin to build/demo.wav"""
+    """builds, then renders doc/demo.mid and doc/demo.score to build/demo.wav and build/guitar.wav"""
     build(bld)
     bld.add_post_fun(render_demo)
 
 
 def render_demo(bld):
     program = bld.bldnode.make_node('hooke').abspath()
-    wav = bld.bldnode.make_node('demo.wav').path_from(bld.path)
     if not os.path.exists(program):
         bld.fatal('there is no program to render the demo with')
-    if subprocess.call([program, 'render', 'doc/demo.mid', wav], cwd=bld.path.abspath(), env=run_environment(bld)):
-        bld.fatal('the demo was not rendered')
+    for tune, wav in [('demo.mid', 'demo.wav'), ('demo.score', 'guitar.wav')]:
+        command = [program, 'render', 'doc/' + tune, bld.bldnode.make_node(wav).path_from(bld.path)]
+        if subprocess.call(command, cwd=bld.path.abspath(), env=run_environment(bld)):
+            bld.fatal('the demo was not rendered')
 
 
 # The built bundle and the specifications are what a host sees, whatever else is installed.
