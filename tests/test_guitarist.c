@@ -180,6 +180,60 @@ static void no_note_of_a_cluster_is_left_out(void** state) {
   }
 }
 
+/* So is one that the pedal takes over in this frame, or that is still to be plucked; not one that
+   has died away. */
+static void what_is_spared_rings_or_will(void** state) {
+  (void)state;
+  for (uint32_t n = 0; n < 3; ++n) {
+    const Player player = player_with(&PLAYER_USUAL);
+    Guitarist* const guitarist = player.guitarist;
+    guitarist_pedal(guitarist, 0, n < 2);
+    guitarist_set_how(guitarist, (GuitaristHow){.strum_s = n == 2 ? 0.1 : 0.0});
+    guitarist_note_on(guitarist, 0, 40, 90);
+    guitarist_note_on(guitarist, 0, 45, 90);
+    player_run(player, 100);
+    guitarist_note_on(guitarist, 0, 60, 90);
+    player_run(player, 2000);
+    guitarist_set_how(guitarist, (GuitaristHow){0});
+    if (n == 0) {
+      guitarist_note_off(guitarist, 0, 60);
+      player.guitar->strings[1].is_awake = false;
+    }
+    guitarist_note_on(guitarist, 0, 59, 90);
+    guitarist_note_off(guitarist, 0, 60);
+    player_run(player, 100);
+    assert_int_equal(player_last(player.guitar, GUITAR_PLUCK)->string, n == 0 ? 1 : 2);
+    player_free(player);
+  }
+}
+
+/* Not the string that is played anew in the same frame, however old its note was. */
+static void the_oldest_note_but_those_of_this_frame_gives_way(void** state) {
+  (void)state;
+  static const uint32_t keys[] = {45, 59, 50, 55, 40, 64};
+  const Player player = player_with(&PLAYER_USUAL);
+  for (uint32_t n = 0; n < PLAYER_STRINGS; ++n) {
+    guitarist_note_on(player.guitarist, 0, keys[n], 90);
+    player_run(player, PLAYER_REST);
+  }
+  guitarist_note_on(player.guitarist, 0, 45, 90);
+  guitarist_note_on(player.guitarist, 0, 61, 90);
+  player_run(player, PLAYER_REST);
+  assert_int_equal(player_last(player.guitar, GUITAR_PLUCK)->string, 1);
+  player_free(player);
+}
+
+/* What was struck before the modes changed is played in the old one. */
+static void a_mode_begins_after_its_frame(void** state) {
+  (void)state;
+  const Player player = player_with(&PLAYER_USUAL);
+  guitarist_note_on(player.guitarist, 3, 64, 90);
+  guitarist_set_how(player.guitarist, (GuitaristHow){.has_channels = true});
+  player_run(player, 100);
+  assert_int_equal(player_last(player.guitar, GUITAR_PLUCK)->string, 0);
+  player_free(player);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_key_sounds_as_it_is_called),
@@ -192,6 +246,9 @@ int main(void) {
       cmocka_unit_test(a_repeated_key_stays_on_its_string),
       cmocka_unit_test(a_ringing_string_is_spared),
       cmocka_unit_test(no_note_of_a_cluster_is_left_out),
+      cmocka_unit_test(what_is_spared_rings_or_will),
+      cmocka_unit_test(the_oldest_note_but_those_of_this_frame_gives_way),
+      cmocka_unit_test(a_mode_begins_after_its_frame),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

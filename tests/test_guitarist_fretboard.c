@@ -174,6 +174,10 @@ static void a_grip_is_the_cheapest_there_is(void** state) {
   assert_true(n_whole > ROUNDS / 4);
 }
 
+static bool has_key(const FretboardString* string, uint32_t key) {
+  return off_the_neck((int32_t)lround(key - string->open)) == 0;
+}
+
 /* Whatever is asked for, a string of the guitar is the answer, and work and hand stay in bounds. */
 static void work_is_bounded(void** state) {
   (void)state;
@@ -197,6 +201,10 @@ static void work_is_bounded(void** state) {
     assert_in_range(grip.position, 1, 24);
     for (uint32_t i = 0; i < n; ++i) {
       assert_in_range(grip.string[i], 0, board.n_strings - 1);
+      for (uint32_t s = 0; s < board.n_strings; ++s) {
+        assert_true(!has_key(&board.strings[s], keys[i]) ||
+                    has_key(&board.strings[grip.string[i]], keys[i]));
+      }
     }
   }
   printf("at most %u tries, %u on free strings\n", most, most_free);

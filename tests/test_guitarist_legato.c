@@ -78,6 +78,7 @@ static void other_soft_notes_are_plucked(void** state) {
   const GuitaristHow how = {.legato = LEGATO};
   uint32_t from = 0;
   Player player = player_how(how);
+  player_run(player, 10000);
   on(player, 0, 60, SOFT); /* Alone */
   player_run(player, 2400);
   on(player, 0, 62, SOFT); /* Too soon */
@@ -214,6 +215,71 @@ static void without_legato_nothing_pulls_off(void** state) {
   player_free(player);
 }
 
+/* Neither below the nut nor above the last fret is there a place to hammer. */
+static void there_is_no_hammering_off_the_neck(void** state) {
+  (void)state;
+  static const uint32_t keys[][2] = {{65, 63}, {88, 90}};
+  for (uint32_t n = 0; n < 2; ++n) {
+    const Player player = player_how((GuitaristHow){.legato = LEGATO});
+    on(player, 0, keys[n][0], HARD);
+    player_run(player, 4800);
+    on(player, 0, keys[n][1], SOFT);
+    player_run(player, 4800);
+    assert_int_equal(player_count(player.guitar, GUITAR_HAMMER), 0);
+    player_free(player);
+  }
+}
+
+static void the_hand_goes_with_the_finger_that_hammers(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){.legato = LEGATO});
+  uint32_t from = 0;
+  on(player, 0, 60, HARD);
+  player_run(player, 4800);
+  on(player, 0, 65, SOFT);
+  player_run(player, 4800);
+  guitarist_all_notes_off(player.guitarist, 0);
+  on(player, 0, 65, HARD); /* Nearer than the first fret of the next string now */
+  player_run(player, 4800);
+  assert_done(player, &from, "f1 p1 h1 d1 f1 p1");
+  player_free(player);
+}
+
+/* A finger that falls again where it waits is one finger. */
+static void a_finger_waits_once(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){.has_channels = true, .legato = LEGATO});
+  uint32_t from = 0;
+  on(player, 1, 60, HARD);
+  player_run(player, 3000);
+  on(player, 1, 62, SOFT);
+  player_run(player, 3000);
+  on(player, 1, 60, SOFT);
+  player_run(player, 3000);
+  off(player, 1, 60);
+  off(player, 1, 62);
+  player_run(player, 100);
+  assert_done(player, &from, "f1 p1 h1 h1 h1 d1");
+  player_free(player);
+}
+
+/* What rings on is not the note that is due. */
+static void nothing_is_hammered_onto_a_note_that_is_due(void** state) {
+  (void)state;
+  const Player player =
+      player_how((GuitaristHow){.has_channels = true, .legato = LEGATO, .strum_s = 0.02});
+  uint32_t from = 0;
+  on(player, 0, 64, HARD);
+  player_run(player, 4800);
+  on(player, 5, 40, HARD);
+  on(player, 0, 65, HARD);
+  player_run(player, 100);
+  on(player, 0, 67, SOFT);
+  player_run(player, 4800);
+  assert_done(player, &from, "f0 p0 f5 p5 f0 p0 f0 p0");
+  player_free(player);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_soft_note_is_hammered_on),
@@ -223,6 +289,10 @@ int main(void) {
       cmocka_unit_test(fingers_lift_in_any_order),
       cmocka_unit_test(many_fingers_wait),
       cmocka_unit_test(without_legato_nothing_pulls_off),
+      cmocka_unit_test(there_is_no_hammering_off_the_neck),
+      cmocka_unit_test(the_hand_goes_with_the_finger_that_hammers),
+      cmocka_unit_test(a_finger_waits_once),
+      cmocka_unit_test(nothing_is_hammered_onto_a_note_that_is_due),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

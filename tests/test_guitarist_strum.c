@@ -115,7 +115,7 @@ static void a_strum_has_an_end(void** state) {
   const Player player = player_how((GuitaristHow){.strum_s = 0.1});
   for (uint32_t n = 0; n < 1000; ++n) {
     guitarist_note_on(player.guitarist, 0, 40 + n % 40, VELOCITY);
-    player_run(player, 1);
+    player_run(player, n == 0 ? 0 : 1); /* The first two are a chord */
   }
   player_run(player, 6 * 4800);
   assert_int_equal(player_count(player.guitar, GUITAR_PLUCK), 1000);
@@ -220,6 +220,32 @@ static void all_sound_off_leaves_nothing_due(void** state) {
   player_free(player);
 }
 
+/* Of strings tuned alike the one that lies lower is the lower. */
+static void strings_tuned_alike_are_struck_as_they_lie(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){.strum_s = STRUM_S, .has_channels = true});
+  GuitarPatch patch = PLAYER_USUAL;
+  patch.open[1] = patch.open[0];
+  guitarist_set_patch(player.guitarist, &patch);
+  guitarist_note_on(player.guitarist, 0, 70, VELOCITY);
+  guitarist_note_on(player.guitarist, 1, 70, VELOCITY);
+  player_run(player, 5000);
+  assert_int_equal(player_nth(player.guitar, GUITAR_PLUCK, 0)->string, 1);
+  player_free(player);
+}
+
+static void no_note_joins_a_strum_that_was_stopped(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){.strum_s = STRUM_S});
+  keys_down(player);
+  player_run(player, 100);
+  guitarist_all_sound_off(player.guitarist);
+  guitarist_note_on(player.guitarist, 0, 43, VELOCITY);
+  player_run(player, 100);
+  assert_int_equal(player_count(player.guitar, GUITAR_PLUCK), 2);
+  player_free(player);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_strum_goes_down_at_its_frames),
@@ -232,6 +258,8 @@ int main(void) {
       cmocka_unit_test(a_note_of_no_length_sounds),
       cmocka_unit_test(the_pedal_waits_for_the_strum),
       cmocka_unit_test(all_sound_off_leaves_nothing_due),
+      cmocka_unit_test(strings_tuned_alike_are_struck_as_they_lie),
+      cmocka_unit_test(no_note_joins_a_strum_that_was_stopped),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
