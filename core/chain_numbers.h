@@ -1,6 +1,6 @@
 /**
    What a chain's masses are kept in: where they lie in memory, and how they pass from one kind of
-   numbers to another.  For core/chain.c alone.
+   numbers to another.  For core/chain.c, and core/contact.c, which must not round to floats.
 
    Thread: one at a time; real-time safe.
 */

@@ -1,0 +1,30 @@
+/**
+   How fast a hammer is to be thrown.
+
+   What a strike does to a string depends on the hammer's mass, its felt and the place, and not in
+   proportion to its speed.  So it is tried first on a small string: of the same masses, but at most
+   a few, at rest, flexible, undamped, and stepped no more often than they need, with which the
+   hammer is made alike in all that does not depend on the number of masses or the rate: mass as a
+   share of the string's, time as a share of the period.  A few tries find the speed.
+
+   Thread: any; real-time safe: the longest takes some tens of microseconds.
+*/
+#ifndef HOOKE_CORE_REHEARSAL_H
+#define HOOKE_CORE_REHEARSAL_H
+
+#include "core/hammer.h"
+
+/**
+   Make the hammer for a strike.
+
+   The felt's stiffness is a matter of the strike's hardness, in terms of the string's mass and
+   period.  A louder strike presses it further, where it is stiffer, and so is shorter and brighter;
+   less so than if the felt were the same for the softest and the loudest, whose strikes would then
+   differ a hundredfold in their length.
+
+   @param n_masses  Of the string that is to be struck, ≥ 1
+   @param angle1    Its fundamental's digital angular frequency [rad per sample], 0 to π
+*/
+HammerMake rehearsal_make(uint32_t n_masses, Strike strike, double angle1);
+
+#endif
