@@ -166,6 +166,27 @@ static void dead_string_sleeps_in_exact_zeros(void** state) {
   }
 }
 
+/* A finger that falls is a pluck of four tenths at the fret, as far out as there is string. */
+static void hammer_is_a_weak_pluck_where_the_finger_falls(void** state) {
+  (void)state;
+  const GuitarPatch patch = guitars_patch();
+  const double place = GUITAR_FARTHEST * exp2(-5.0 / 12.0);
+  double worst = 0.0;
+  Guitar* const guitar = guitars_new(RATE_HZ, &patch);
+  guitar_hammer(guitar, 1, 5.0, 0.7);
+  run(guitar, 5000, &first);
+  guitar_reset(guitar);
+  guitar_fret(guitar, 1, 5.0);
+  guitar_pluck(guitar, 1, (GuitarPluck){0.7 * 0.4, place, 0.4});
+  run(guitar, 5000, &second);
+  for (uint32_t n = 0; n < 5000; ++n) {
+    worst = fmax(worst, fabs((double)first.left[n] - (double)second.left[n]));
+  }
+  assert_true(measure_peak(first.left, 5000) > 0.01);
+  assert_within("off the pluck", worst, 1e-5 * GUITAR_NOTE_PEAK);
+  guitar_free(guitar);
+}
+
 /* The two upper strings have their like, a little sharp; the others the octave. */
 static void course_has_a_string_beside_each(void** state) {
   (void)state;
@@ -201,6 +222,7 @@ int main(void) {
       cmocka_unit_test(string_taken_away_falls_silent),
       cmocka_unit_test(reset_is_as_new),
       cmocka_unit_test(dead_string_sleeps_in_exact_zeros),
+      cmocka_unit_test(hammer_is_a_weak_pluck_where_the_finger_falls),
       cmocka_unit_test(course_has_a_string_beside_each),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

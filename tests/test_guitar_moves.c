@@ -108,9 +108,48 @@ static void moves_keep_the_motion(void** state) {
   assert_within("motion that a slow one does [octaves]", worst_slow, 0.02);
 }
 
+/* Plucked as it is being fretted, it is in the end as loud as one plucked at the fret. */
+static void pluck_in_a_gesture_is_as_loud(void** state) {
+  (void)state;
+  for (int way = 0; way < 2; ++way) {
+    double motion[2];
+    for (int is_moving = 0; is_moving < 2; ++is_moving) {
+      Solo solo;
+      solo_start(&solo, 64.0);
+      guitar_string_slide(&solo.string, &solo.patch, is_moving == way ? 12.0 : 0.0, 0);
+      guitar_string_pluck(&solo.string, &solo.patch, (Pluck){0.5, 0.3, 1e-6});
+      solo_run(&solo, 1000);
+      if (is_moving) {
+        guitar_string_slide(&solo.string, &solo.patch, way ? 0.0 : 12.0, GESTURE);
+      }
+      guitar_string_pluck(&solo.string, &solo.patch, (Pluck){0.5, 0.3, 0.25});
+      solo_run(&solo, 4 * GESTURE);
+      motion[is_moving] = motion_of(&solo);
+    }
+    /* A gesture of one period is not slow; without regard to it this would be half an octave. */
+    assert_within("octaves between them", fabs(log2(motion[1] / motion[0])), 0.25);
+  }
+}
+
+/* Where strings are plucked and read stays, so it is another part of what sounds. */
+static void places_stay_when_strings_are_fretted(void** state) {
+  (void)state;
+  Solo solo;
+  solo_start(&solo, 64.0);
+  guitar_string_slide(&solo.string, &solo.patch, 5.0, 0);
+  solo.patch.capo = 7.0;
+  assert_within("off twice", fabs(guitar_string_place(&solo.string, &solo.patch, 0.2) - 0.4),
+                1e-12);
+  assert_true(guitar_string_place(&solo.string, &solo.patch, 0.46) == GUITAR_FARTHEST);
+  guitar_string_pluck(&solo.string, &solo.patch, (Pluck){0.5, 0.3, 0.25});
+  assert_within("read off it", fabs(solo.string.reading.heard[0] - 0.2), 1e-12);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(moves_keep_the_motion),
+      cmocka_unit_test(pluck_in_a_gesture_is_as_loud),
+      cmocka_unit_test(places_stay_when_strings_are_fretted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

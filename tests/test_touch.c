@@ -146,6 +146,28 @@ static void touch_takes_the_share_that_it_should(void** state) {
   assert_within("energy taken, against what should be, of all", worst, 2.0 * MOST_ROUNDING);
 }
 
+/* Half a mass from a wall: 9/16 on the mass there and −1/16 on the next, as between any two, and
+ * the same upside down of those behind the wall, −1/16 of mass −1. */
+static void finger_beside_a_wall_feels_the_string_go_on(void** state) {
+  (void)state;
+  const uint32_t n = 60;
+  Random random = random_start();
+  double worst = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    draw_string(&random, n);
+    motion_read(&chain, &before);
+    touch_act(&chain, (i % 2 ? 0.5 : n + 0.5) / (n + 1.0), 1.0);
+    motion_read(&chain, &after);
+    const uint32_t near = i % 2 ? 0 : n - 1;
+    const uint32_t next = i % 2 ? 1 : n - 2;
+    const double moved = after.u[near] - before.u[near];
+    const double other = after.u[next] - before.u[next];
+    const double room = 1e-6 * (fabs(before.u[near]) + fabs(before.u[next]) + fabs(moved));
+    worst = fmax(worst, fabs(other + moved * 0.0625 / 0.625) / room);
+  }
+  assert_within("off what it should be, of rounding", worst, 1.0);
+}
+
 /* A mode with a node under the finger keeps all that it has; the next one loses. */
 static void node_is_not_felt(void** state) {
   (void)state;
@@ -211,6 +233,7 @@ int main(void) {
       cmocka_unit_test(touch_never_adds_energy),
       cmocka_unit_test(no_weight_and_walls_do_nothing),
       cmocka_unit_test(touch_takes_the_share_that_it_should),
+      cmocka_unit_test(finger_beside_a_wall_feels_the_string_go_on),
       cmocka_unit_test(node_is_not_felt),
       cmocka_unit_test(weight_is_graded),
   };
