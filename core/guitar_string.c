@@ -1,5 +1,6 @@
 #include "core/guitar_string.h"
 
+#include "core/guitar_tone.h"
 #include "core/touch.h"
 
 #include <math.h>
@@ -8,74 +9,13 @@ static uint32_t least(uint32_t a, uint32_t b) {
   return a < b ? a : b;
 }
 
-static double frets_of(const GuitarPatch* patch, double fret) {
-  return fmax(patch->capo + fret, 0.0);
-}
-
-static double pitch_hz(const GuitarPatch* patch, double note) {
-  return patch->string.tuning_hz * exp2((note - 69.0) / 12.0);
-}
-
-/* What a note is to sound like without a hand on the string. */
-static TuningTarget
-free_target(const GuitarString* string, const GuitarPatch* patch, double note, double f0_hz) {
-  const Patch* const p = &patch->string;
-  const double damping_per_s = p->damping_per_s * exp2(p->tracking * (note - 69.0) / 12.0);
-  return (TuningTarget){
-      .rate_hz = string->wire.rate_hz,
-      .tone = {.f0_hz = f0_hz, .tau_s = 1.0 / damping_per_s},
-      .loss = p->loss,
-      .inharmonicity = p->inharmonicity,
-      .partials = p->partials,
-  };
-}
-
-static TuningTarget open_target(const GuitarString* string, const GuitarPatch* patch) {
-  return free_target(string, patch, string->open, pitch_hz(patch, string->open));
-}
-
-/* What damps it acts from outside; the palm dulls it too. */
-static TuningTarget
-damped_target(const GuitarString* string, const GuitarPatch* patch, TuningTarget target) {
-  const double palm_per_s = GUITAR_PALM_PER_S * patch->palm * patch->palm;
-  if (palm_per_s > 0.0) {
-    const double tau_s = 1.0 / (1.0 / target.tone.tau_s + palm_per_s);
-    target = tuning_damped(target, tau_s, GUITAR_PALM_LOSS);
-  }
-  if (string->damper != GUITAR_RINGING) {
-    const double hand_s = string->damper == GUITAR_CHOKED ? WIRE_CHOKE_S : patch->string.release_s;
-    target = tuning_damped(target, fmin(target.tone.tau_s, hand_s), 0.0);
-  }
-  return target;
-}
-
-/* The pitch where a mass is stopped and nothing else is done: that of the open string's springs. */
-static double uncorrected_hz(const GuitarString* string, const GuitarPatch* patch) {
-  const TuningTarget open = open_target(string, patch);
-  const double frets = frets_of(patch, string->motion.fret.value);
-  StringCoefs coefs = {0};
-  if (tuning_solve(&open, string->n_open, &coefs)) {
-    return open.tone.f0_hz;
-  }
-  const Pole first = tuning_mode(coefs, guitar_string_masses(string->n_open, frets), 1);
-  return pole_tone(open.rate_hz, first).f0_hz;
-}
-
-static TuningTarget target_of(const GuitarString* string, const GuitarPatch* patch) {
-  const double note = string->open + patch->capo + string->motion.fret.value;
-  const double f0_hz =
-      patch->is_uncorrected ? uncorrected_hz(string, patch) : pitch_hz(patch, note);
-  const double bent_hz = f0_hz * exp2(guitar_motion_bend(&string->motion) / 12.0);
-  return damped_target(string, patch, free_target(string, patch, note, bent_hz));
-}
-
 /* A pitch that cannot be had chokes it at the one that it has. */
 static void retune(GuitarString* string, const GuitarPatch* patch, uint32_t n_glide) {
   Wire* const wire = &string->wire;
-  TuningTarget target = target_of(string, patch);
+  TuningTarget target = guitar_tone(string, patch);
   if (wire->is_awake && !wire_retune(wire, &target, n_glide)) {
     string->damper = GUITAR_CHOKED;
-    target = target_of(string, patch);
+    target = guitar_tone(string, patch);
     target.tone.f0_hz = wire->f0_hz;
     if (!wire_retune(wire, &target, n_glide)) {
       wire_sleep(wire);
@@ -86,14 +26,14 @@ static void retune(GuitarString* string, const GuitarPatch* patch, uint32_t n_gl
 
 /* Masses between the bridge and where it will be stopped. */
 static uint32_t masses_wanted(const GuitarString* string, const GuitarPatch* patch) {
-  return guitar_string_masses(string->n_open, frets_of(patch, string->motion.fret.goal));
+  return guitar_string_masses(string->n_open, guitar_tone_frets(patch, string->motion.fret.goal));
 }
 
 /* What becomes shorter has fewer masses from the beginning of its way on. */
 static void shorten(GuitarString* string, const GuitarPatch* patch) {
   const uint32_t n_masses = masses_wanted(string, patch);
   if (string->wire.is_awake && n_masses < string->wire.chain.n_masses) {
-    const TuningTarget target = target_of(string, patch);
+    const TuningTarget target = guitar_tone(string, patch);
     wire_mesh(&string->wire, &target, n_masses);
   }
 }
@@ -101,7 +41,7 @@ static void shorten(GuitarString* string, const GuitarPatch* patch) {
 /* And what becomes longer has more at its end. */
 static void lengthen(GuitarString* string, const GuitarPatch* patch) {
   if (string->wire.is_awake && string->wire.chain.n_masses < masses_wanted(string, patch)) {
-    const TuningTarget target = target_of(string, patch);
+    const TuningTarget target = guitar_tone(string, patch);
     const uint32_t n_masses = tuning_max_masses(&target, masses_wanted(string, patch));
     if (n_masses > string->wire.chain.n_masses) {
       wire_mesh(&string->wire, &target, n_masses);
@@ -150,12 +90,12 @@ static void places_of(const GuitarString* string, const GuitarPatch* patch, doub
 
 /* From rest, with the masses of the open string that are not stopped. */
 static bool restring(GuitarString* string, const GuitarPatch* patch) {
-  const TuningTarget open = open_target(string, patch);
+  const TuningTarget open = guitar_tone_open(string, patch);
   const uint32_t n_open =
       tuning_max_masses(&open, least(patch->string.max_masses, string->wire.capacity));
   double places[GUITAR_PICKUPS];
   string->n_open = n_open > 0 ? n_open : 1;
-  const TuningTarget target = target_of(string, patch);
+  const TuningTarget target = guitar_tone(string, patch);
   places_of(string, patch, places);
   guitar_reading_set(&string->reading, places);
   return wire_string(&string->wire, &target, masses_wanted(string, patch));
@@ -190,7 +130,7 @@ uint32_t guitar_string_masses(uint32_t n_open, double frets) {
 }
 
 double guitar_string_place(const GuitarString* string, const GuitarPatch* patch, double place) {
-  const double frets = frets_of(patch, string->motion.fret.goal);
+  const double frets = guitar_tone_frets(patch, string->motion.fret.goal);
   return fmin(place * exp2(frets / 12.0), GUITAR_FARTHEST);
 }
 
