@@ -1,0 +1,147 @@
+#include "core/bow.h"
+
+#include "core/contact.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Friction at rest and where it slips fast, and the speed, of that with which Helmholtz's string
+ * slips back, at which it is half way. */
+static const double STATIC = 0.8;
+static const double DYNAMIC = 0.3;
+static const double HALF_WAY = 1.0;
+
+/* The string's twist under the hair: its damper, of the string's impedance, and the time in which
+ * its spring gives way to it, of a period. */
+static const double ROLL = 1.0;
+static const double ROLL_TIME = 0.02;
+
+/* A bow is so wide that it comes no nearer to a wall. */
+static const double LEAST_PLACE = 0.03;
+
+/* Force, of the most with which each round of the string still pulls the hair off, for no pressure
+ * and for all. */
+static const double LIGHTEST = 0.65;
+static const double HEAVIEST = 1.6;
+
+/* What the hair and the string settle in a step. */
+typedef struct {
+  double free;  /* v without friction */
+  double yield; /* What v gives way to a force of 1 */
+  double force; /* F */
+  double v0;
+} Meeting;
+
+static double friction_at(const Meeting* m, double speed) {
+  return m->force * (DYNAMIC + (STATIC - DYNAMIC) / (1.0 + speed / m->v0));
+}
+
+/*
+  Slipping with |v| > 0 in the direction in which `free` is counted: with w = free − yield F μd,
+
+      v² + (v0 − w) v − w v0 + yield F (μs − μd) v0 = 0,
+
+  of which the larger root is the one that is there to stay.  0: none.
+*/
+static double slip_of(const Meeting* m, double free) {
+  const double w = free - m->yield * m->force * DYNAMIC;
+  const double sum = m->v0 + w;
+  const double discriminant = sum * sum - 4.0 * m->yield * m->force * (STATIC - DYNAMIC) * m->v0;
+  if (!(discriminant >= 0.0)) {
+    return 0.0;
+  }
+  return fmax(0.0, 0.5 * (w - m->v0 + sqrt(discriminant)));
+}
+
+/* Go on with what it did, if it can; else stick, if that is strong enough; else slip. */
+static BowGrip grip_of(const Meeting* m, BowGrip grip, double* speed) {
+  if (grip != BOW_STICKS) {
+    *speed = slip_of(m, grip == BOW_SLIPS_BACK ? -m->free : m->free);
+    if (*speed > 0.0) {
+      return grip;
+    }
+  }
+  *speed = 0.0;
+  if (fabs(m->free) <= m->yield * m->force * STATIC) {
+    return BOW_STICKS;
+  }
+  *speed = slip_of(m, fabs(m->free));
+  return m->free > 0.0 ? BOW_SLIPS_AHEAD : BOW_SLIPS_BACK;
+}
+
+static void settle(Bow* bow, const Meeting* m) {
+  double speed = 0.0;
+  bow->grip = grip_of(m, bow->grip, &speed);
+  if (bow->grip == BOW_STICKS) {
+    bow->slip = 0.0;
+    bow->friction = -m->free / m->yield;
+  } else {
+    const double sign = bow->grip == BOW_SLIPS_BACK ? -1.0 : 1.0;
+    bow->slip = sign * speed;
+    bow->friction = -sign * friction_at(m, speed);
+  }
+}
+
+static void follow(Bow* bow) {
+  bow->drawn = fmin(1.0, bow->drawn + bow->draw);
+  bow->pressed =
+      bow->is_lifted ? fmax(0.0, bow->pressed - bow->lift) : fmin(1.0, bow->pressed + bow->press);
+  bow->is_active = !(bow->is_lifted && bow->pressed <= 0.0);
+}
+
+static double share_of_step(double time_s, double rate_hz) {
+  return 1.0 / fmax(1.0, time_s * rate_hz);
+}
+
+void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, double rate_hz) {
+  const double place = fmin(fmax(stroke.place, LEAST_PLACE), 1.0 - LEAST_PLACE);
+  const double beta = fmin(place, 1.0 - place);
+  const double speed = 8.0 * beta * (1.0 - beta) * stroke.amplitude * angle1 / (2.0 * PI);
+  /* Schelleng's most: the corner brings 2 √k1 b/β, and friction falls by so much at its slip. */
+  const double heavy = 2.0 * (1.0 + HALF_WAY) / (beta * (STATIC - DYNAMIC));
+  *bow = (Bow){
+      .place = place,
+      .speed = speed,
+      .force = heavy * LIGHTEST * pow(HEAVIEST / LIGHTEST, stroke.pressure),
+      .draw = share_of_step(stroke.attack_s, rate_hz),
+      .press = share_of_step(0.5 * stroke.attack_s, rate_hz),
+      .lift = share_of_step(stroke.release_s, rate_hz),
+      .spring = ROLL * angle1 / (2.0 * PI * ROLL_TIME),
+      .is_active = true,
+  };
+  bow_look(bow, chain);
+}
+
+void bow_lift(Bow* bow) {
+  bow->is_lifted = true;
+}
+
+void bow_look(Bow* bow, const Chain* chain) {
+  const Contact contact = contact_at(chain, bow->place);
+  bow->before = contact_velocity(chain, &contact);
+}
+
+bool bow_act(Bow* bow, Chain* chain) {
+  if (!bow->is_active) {
+    return false;
+  }
+  const Contact contact = contact_at(chain, bow->place);
+  const double impedance = sqrt(chain->now.k1);
+  const double after = contact_velocity(chain, &contact);
+  follow(bow);
+  bow->hair = bow->drawn * bow->speed;
+  const double spring = impedance * bow->spring;
+  const double roll = 1.0 / (impedance * ROLL + 0.5 * spring);
+  const Meeting m = {
+      .free = 0.5 * (after + bow->before) - bow->hair - roll * spring * bow->rolled,
+      .yield = 0.5 * contact.square + roll,
+      .force = bow->pressed * bow->force * impedance * bow->speed,
+      .v0 = HALF_WAY * bow->speed / fmin(bow->place, 1.0 - bow->place),
+  };
+  settle(bow, &m);
+  bow->rolled += roll * (bow->friction - spring * bow->rolled);
+  contact_push(chain, &contact, bow->friction);
+  bow->before = after + contact.square * bow->friction;
+  return bow->is_active;
+}

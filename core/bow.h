@@ -1,0 +1,89 @@
+/**
+   A bow that is drawn across a string: friction at one place.
+
+   It acts between the steps of one frame (core/contact.h).  With the hair's speed b against the
+   string's own,
+
+       v = eᵀ(u' + u)/2 − b,   u' = u* + e f,   f = −F μ(v),
+
+   is solved for in every step.  Friction is Coulomb's and falls as the hair slips faster,
+
+       μ(v) = sgn(v) (μd + (μs − μd)/(1 + |v|/v0)),   any from −μs to μs where it sticks, v = 0,
+
+   so both the branch that sticks and those that slip have closed forms.  Where a string can do
+   either, it goes on with what it did.
+
+   A string rolls under the hair, too, which swallows some of what a hard grip would throw back. The
+   roll is a damper r and a spring s side by side, and v has its speed w beside the string's own:
+
+       f = r w + s (q + w/2),   q ← q + w.
+
+   So in a step the string's energy grows by f (v + b − w), in which f v ≤ 0 is heat, and f w is r
+   w² and what ½ s q² grows by: string and roll together get at most the bow's f b.
+
+   With half the pressure at a place about an eighth from a wall, a string of a hundred masses and
+   more, or of all that it can have, moves as Helmholtz's: one slip a period, at its own pitch
+   within 3 cents.  That takes 75 frames a period; with fewer the slips fall into step with the
+   frames, and nearer to the walls or on fewer masses the pitch may be some cents flat.
+
+   Thread: one at a time; real-time safe.
+*/
+#ifndef HOOKE_CORE_BOW_H
+#define HOOKE_CORE_BOW_H
+
+#include "core/chain.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** A stroke as it is wanted. */
+typedef struct {
+  double place;     /**< β, fraction of the length, 0 to 1; kept off the walls */
+  double pressure;  /**< 0: all but too light, to 1: all but too heavy for Helmholtz's motion */
+  double amplitude; /**< Largest displacement of the ideal string that it gives, > 0 */
+  double attack_s;  /**< Time in which it comes to its speed [s] */
+  double release_s; /**< Time in which it is lifted [s] */
+} Stroke;
+
+/** What the hair does to the string just now. */
+typedef enum { BOW_STICKS, BOW_SLIPS_BACK, BOW_SLIPS_AHEAD } BowGrip;
+
+/** A bow at work; zero is none. */
+typedef struct {
+  double place;
+  double speed;    /**< b once it is drawn in full, per step */
+  double force;    /**< F then, of √k1 b */
+  double spring;   /**< s, of √k1 */
+  double drawn;    /**< Share of its speed that it has, 0 to 1 */
+  double draw;     /**< What a step adds to it */
+  double pressed;  /**< Share of its force that it has, 0 to 1 */
+  double press;    /**< What a step adds to it */
+  double lift;     /**< What a step takes from it once the bow is lifted */
+  double before;   /**< eᵀu before the step */
+  double rolled;   /**< q */
+  double hair;     /**< b of the last step */
+  double slip;     /**< v of the last step */
+  double friction; /**< f of the last step, in h²/m */
+  BowGrip grip;
+  bool is_lifted;
+  bool is_active;
+} Bow;
+
+/** Put a bow to a string and begin to draw it. */
+void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, double rate_hz);
+
+/** Lift it. */
+void bow_lift(Bow* bow);
+
+/** See the string anew: call it before the next step when anything but its steps, hammers or other
+ * bows has moved it. */
+void bow_look(Bow* bow, const Chain* chain);
+
+/**
+   Let the bow act for one step; call it after every step of one frame.
+
+   @return false once it has been lifted; from then on it does nothing
+*/
+bool bow_act(Bow* bow, Chain* chain);
+
+#endif

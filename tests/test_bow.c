@@ -1,0 +1,399 @@
+#include "core/bow.h"
+
+#include "tests/measure.h"
+#include "tests/oracle.h"
+#include "tests/strung.h"
+#include "tools/bench_clock.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const double PI = 3.14159265358979323846;
+
+enum { MOST = 192000 * 7 };
+
+static _Alignas(CHAIN_ALIGNMENT) char memory[32 * CHAIN_MAX_MASSES];
+static float heard[MOST];
+
+static bool is_long(void) {
+  return getenv("HOOKE_TEST_LONG");
+}
+
+static Stroke stroke_anyhow(Random* random) {
+  return (Stroke){
+      .place = random_between(random, 0.0, 1.0),
+      .pressure = random_between(random, -3.0, 4.0),
+      .amplitude = random_log_between(random, 1e-6, 10.0),
+      .attack_s = random_log_between(random, 1e-4, 0.1),
+      .release_s = random_log_between(random, 1e-4, 0.1),
+  };
+}
+
+/* What the place does, a second way: eᵀu. */
+static double place_velocity(const Bow* bow, const Motion* motion) {
+  const double at = fmin(fmax(bow->place * (motion->n + 1.0), 1.0), motion->n);
+  const uint32_t i = (uint32_t)at;
+  const double w = at - i;
+  return (1.0 - w) * motion->u[i - 1] + (w > 0.0 ? w * motion->u[i] : 0.0);
+}
+
+static double dampers_took(const Motion* a, const Motion* b, StringCoefs c) {
+  double took = 0.0;
+  for (uint32_t i = 0; i < a->n; ++i) {
+    const double left = i > 0 ? a->u[i - 1] : 0.0;
+    const double right = i + 1 < a->n ? a->u[i + 1] : 0.0;
+    took += 0.5 * (a->u[i] + b->u[i]) * (c.z0 * a->u[i] + c.z1 * (2.0 * a->u[i] - left - right));
+  }
+  return took;
+}
+
+/* Friction of the curve: at most the static, and where it slips just what the curve says. */
+static void assert_on_the_curve(const Bow* bow, double k1) {
+  const double force = bow->pressed * bow->force * sqrt(k1) * bow->speed;
+  const double v0 = bow->speed / fmin(bow->place, 1.0 - bow->place);
+  if (bow->grip == BOW_STICKS) {
+    assert_true(bow->slip == 0.0 && fabs(bow->friction) <= 0.8 * force * (1.0 + 1e-12));
+  } else {
+    const double curve = force * (0.3 + 0.5 / (1.0 + fabs(bow->slip) / v0));
+    assert_true(fabs(fabs(bow->friction) - curve) <= 1e-12 * curve);
+    assert_true(bow->friction * bow->slip <= 0.0);
+  }
+}
+
+static void power_comes_from_the_bow_alone(void** state) {
+  (void)state;
+  static Motion motion[2];
+  Random random = random_start();
+  double worst = 0.0;
+  double worst_speed = 0.0;
+  double worst_gift = 0.0;
+  uint32_t n_of[3] = {0};
+  for (int k = 0; k < (is_long() ? 2000 : 200); ++k) {
+    Strung strung;
+    Bow bow;
+    strung_up_anywhere(&strung, memory, &random, CHAIN_DOUBLE);
+    const StringCoefs coefs = strung.chain.now;
+    bow_start(&bow, &strung.chain, stroke_anyhow(&random), strung.angle1, strung.rate_hz);
+    const double swing = bow.speed * random_below(&random, 4);
+    chain_push(&strung.chain, strung.chain.n_masses / 2,
+               (float)(swing * (strung.chain.n_masses + 1.0)));
+    bow_look(&bow, &strung.chain);
+    strung_read(&strung, &motion[0]);
+    double before = strung_energy(&motion[0], coefs);
+    double rolled = 0.0;
+    double size = 1e-300;
+    for (int n = 0; n < 1000 && bow.is_active; ++n) {
+      Motion* const old = &motion[n % 2];
+      Motion* const new = &motion[(n + 1) % 2];
+      strung_step(&strung, 0);
+      bow_act(&bow, &strung.chain);
+      strung_read(&strung, new);
+      const double speed = 0.5 * (place_velocity(&bow, old) + place_velocity(&bow, new));
+      const double after = strung_energy(new, coefs);
+      const double gained = after - before + dampers_took(old, new, coefs);
+      const double roll = 0.5 * bow.spring * sqrt(coefs.k1) * bow.rolled * bow.rolled;
+      size = fmax(size, fmax(fabs(bow.friction * bow.hair), after + roll));
+      worst = fmax(worst, fabs(gained - bow.friction * speed) / size);
+      worst_gift = fmax(worst_gift, (gained + roll - rolled - bow.friction * bow.hair) / size);
+      /* Where it sticks, the string and its roll go with the hair. */
+      const double roll_speed = bow.slip + bow.hair - speed;
+      const double pull = sqrt(coefs.k1) * roll_speed * (1.0 + 0.5 * bow.spring) +
+                          sqrt(coefs.k1) * bow.spring * (bow.rolled - roll_speed);
+      worst_speed = fmax(worst_speed, fabs(pull - bow.friction) /
+                                          (fabs(bow.friction) + sqrt(coefs.k1) * bow.speed));
+      assert_on_the_curve(&bow, coefs.k1);
+      assert_true(isfinite(after));
+      ++n_of[bow.grip];
+      before = after;
+      rolled = roll;
+      if (random_below(&random, 1000) == 0) {
+        bow_lift(&bow);
+      }
+    }
+  }
+  print_message("  steps: %u stick, %u slip back, %u ahead\n", n_of[0], n_of[1], n_of[2]);
+  assert_within("energy gained, less the work of the friction", worst, 1e-12);
+  assert_within("energy that neither bow nor friction gave", worst_gift, 1e-12);
+  assert_within("roll against friction", worst_speed, 1e-8);
+  assert_true(n_of[0] > 1000 && n_of[1] > 1000 && n_of[2] > 100);
+}
+
+static void strung_for(Strung* strung, uint32_t key, double rate_hz, uint32_t limit, double tau_s) {
+  const TuningTarget target = {.rate_hz = rate_hz,
+                               .tone = {strung_pitch_hz(key), tau_s},
+                               .loss = 0.01,
+                               .partials = PARTIALS_TRUEST};
+  strung_up(strung, memory, &target, limit, CHAIN_FLOAT);
+}
+
+typedef struct {
+  double slips;    /* A period */
+  double cents;    /* Off */
+  double decibels; /* Of the fundamental, against Helmholtz's of the amplitude asked for */
+} Bowed;
+
+/* Where it is read, each fourth of its length has the fundamental by sin(π/4). */
+static Bowed
+bow_string(Strung* strung, Bow* bow, Stroke stroke, double from_s, double to_s, double* sines) {
+  const size_t first = (size_t)(from_s * strung->rate_hz);
+  const size_t last = (size_t)(to_s * strung->rate_hz);
+  const uint32_t mass = strung->chain.n_masses / 4;
+  double in_phase = 0.0;
+  double across = 0.0;
+  uint32_t n_slips = 0;
+  BowGrip grip = BOW_STICKS;
+  bow_start(bow, &strung->chain, stroke, strung->angle1, strung->rate_hz);
+  for (size_t i = 0; i < last; ++i) {
+    heard[i] = strung_step(strung, mass);
+    bow_act(bow, &strung->chain);
+    n_slips += i >= first && grip == BOW_STICKS && bow->grip != BOW_STICKS;
+    grip = bow->grip;
+  }
+  Tone tone = {0};
+  const Tone near = {strung->f0_hz, 1e3};
+  measure_tone(heard + first, last - first, strung->rate_hz, near, &tone);
+  for (size_t i = first; i < last; ++i) {
+    /* A Hann window, so that other partials do not count. */
+    const double way = (double)(i - first) / (double)(last - first);
+    const double weight = 1.0 - cos(2.0 * PI * way);
+    const double angle = 2.0 * PI * tone.f0_hz / strung->rate_hz * (double)i;
+    in_phase += weight * cos(angle) * (double)heard[i];
+    across += weight * sin(angle) * (double)heard[i];
+  }
+  const double read = sin(PI * (mass + 1.0) / (strung->chain.n_masses + 1.0));
+  *sines = 2.0 * hypot(in_phase, across) / (double)(last - first) / read;
+  return (Bowed){
+      .slips = n_slips / (strung->f0_hz * (to_s - from_s)),
+      .cents = measure_cents(tone.f0_hz, strung->f0_hz),
+      .decibels = 20.0 * log10(*sines / (8.0 / (PI * PI) * stroke.amplitude)),
+  };
+}
+
+static void bowed_strings_move_as_helmholtz_said(void** state) {
+  (void)state;
+  static const double amplitudes[] = {0.25, 0.01};
+  double worst_slips = 0.0;
+  double worst_cents = 0.0;
+  double least = HUGE_VAL;
+  double most = -HUGE_VAL;
+  for (uint32_t key = 33; key <= 84; key += 3) {
+    for (uint32_t r = 0; r < STRUNG_N_RATES; ++r) {
+      Strung strung;
+      Bow bow;
+      double sines = 0.0;
+      const double rate_hz = strung_rate_hz(r);
+      strung_for(&strung, key, rate_hz, 128, 2.0);
+      const Stroke stroke = {0.13, 0.5, amplitudes[key % 2], 0.05, 0.05};
+      const Bowed bowed = bow_string(&strung, &bow, stroke, 0.6, 1.2, &sines);
+      print_message("%s%u %5.3f %+5.2fc %+4.1fdB", r == 0 ? "  " : " | ", key, bowed.slips,
+                    bowed.cents, bowed.decibels);
+      const double period = rate_hz / strung.f0_hz;
+      if (period >= 30.0) {
+        least = fmin(least, bowed.decibels);
+        most = fmax(most, bowed.decibels);
+      }
+      if (period >= 75.0) {
+        /* Counted in 0.6 s, of which one slip more or less is by chance in or out. */
+        const double chance = 1.0 / (0.6 * strung.f0_hz);
+        worst_slips = fmax(worst_slips, fabs(bowed.slips - 1.0) - chance);
+        worst_cents = fmax(worst_cents, fabs(bowed.cents));
+      }
+    }
+    print_message("\n");
+  }
+  assert_within("slips a period, off one", worst_slips, 1e-3);
+  assert_within("cents", worst_cents, 3.0);
+  assert_within("dB too soft", -least, 3.0);
+  assert_within("dB too loud", most, 3.0);
+}
+
+static double largest_bend(const float* samples, size_t n) {
+  double most = 0.0;
+  for (size_t i = 2; i < n; ++i) {
+    most = fmax(most, fabs((double)(samples[i] - 2.0f * samples[i - 1] + samples[i - 2])));
+  }
+  return most;
+}
+
+static void lifted_strings_ring_on_as_they_are(void** state) {
+  (void)state;
+  static const uint32_t keys[] = {33, 48, 60, 72};
+  double worst_cents = 0.0;
+  double worst_decay = 0.0;
+  double worst_click = 0.0;
+  double worst_swell = 0.0;
+  for (size_t k = 0; k < 4; ++k) {
+    Strung strung;
+    Bow bow;
+    Tone tone;
+    double early = 0.0;
+    const size_t n = (size_t)(5.0 * 48000.0);
+    const size_t rest = (size_t)(2.0 * 48000.0);
+    strung_for(&strung, keys[k], 48000.0, 128, 0.8);
+    const Stroke stroke = {0.13, 0.5, 0.25, 0.05, 0.05};
+    bow_string(&strung, &bow, stroke, 4.0, 5.0, &early);
+    worst_swell = fmax(worst_swell, fabs(20.0 * log10(measure_rms(heard + n - 24000, 24000) /
+                                                      measure_rms(heard + 48000, 24000))));
+    const double bowed = largest_bend(heard + n / 2, n / 2);
+    bow_lift(&bow);
+    size_t lifted = 0;
+    for (size_t i = n; i < n + rest; ++i) {
+      heard[i] = strung_step(&strung, strung.chain.n_masses / 4);
+      lifted = bow_act(&bow, &strung.chain) ? i + 1 : lifted;
+    }
+    assert_in_range(lifted - n, 2300, 2500);
+    assert_true(bow.friction == 0.0 || !bow.is_active);
+    worst_click = fmax(worst_click, largest_bend(heard + n - 2, rest) / bowed);
+    const Tone near = {strung.f0_hz, 0.8};
+    assert_true(measure_tone(heard + lifted, n + rest - lifted, 48000.0, near, &tone));
+    worst_cents = fmax(worst_cents, fabs(measure_cents(tone.f0_hz, strung.f0_hz)));
+    worst_decay = fmax(worst_decay, fabs(tone.tau_s / 0.8 - 1.0));
+  }
+  assert_within("cents after the lift", worst_cents, 0.005);
+  assert_within("decay after the lift, relative", worst_decay, 2e-4);
+  assert_within("corner of the lift, of the bowed string's", worst_click, 1.2);
+  assert_within("dB from the first second to the fifth", worst_swell, 0.5);
+}
+
+static void attack_makes_no_click(void** state) {
+  (void)state;
+  Strung strung;
+  Bow bow;
+  double sines = 0.0;
+  strung_for(&strung, 57, 48000.0, 128, 2.0);
+  bow_string(&strung, &bow, (Stroke){0.13, 0.5, 0.25, 0.05, 0.05}, 0.6, 1.2, &sines);
+  assert_within("corner of the first 10 ms, of the bowed string's",
+                largest_bend(heard, 480) / largest_bend(heard + 28800, 28800), 0.3);
+}
+
+/* Whatever is asked for, the string has at most what the bow can pull it to. */
+static void storms_of_strokes_stay_bounded(void** state) {
+  (void)state;
+  Random random = random_start();
+  double worst = 0.0;
+  for (int k = 0; k < (is_long() ? 3000 : 300); ++k) {
+    Strung strung;
+    Bow bow = {0};
+    double given = 1e-30;
+    double most = 0.0;
+    static Motion motion;
+    strung_up_anywhere(&strung, memory, &random, CHAIN_FLOAT);
+    for (int n = 0; n < 4000; ++n) {
+      if (random_below(&random, 500) == 0) {
+        if (bow.is_active && random_below(&random, 2)) {
+          bow_lift(&bow);
+        } else {
+          bow_start(&bow, &strung.chain, stroke_anyhow(&random), strung.angle1, strung.rate_hz);
+        }
+      }
+      strung_step(&strung, 0);
+      if (bow_act(&bow, &strung.chain)) {
+        given += fmax(0.0, bow.friction * bow.hair);
+      }
+    }
+    strung_read(&strung, &motion);
+    most = motion_energy(&motion, strung.chain.now);
+    assert_true(isfinite(most));
+    worst = fmax(worst, most / given);
+  }
+  assert_within("energy, of what bows gave", worst, 1.01);
+}
+
+static void a_bow_at_rest_only_brakes(void** state) {
+  (void)state;
+  static Motion motion;
+  Strung strung;
+  Bow bow;
+  strung_for(&strung, 57, 48000.0, 128, 1e9);
+  assert_true(chain_hold(&strung.chain, CHAIN_DOUBLE));
+  chain_push(&strung.chain, 40, 0.01f);
+  bow_start(&bow, &strung.chain, (Stroke){0.13, 0.5, 0.25, 0.01, 0.01}, strung.angle1, 48000.0);
+  bow.draw = 0.0;
+  double before = HUGE_VAL;
+  double first = 0.0;
+  for (int n = 0; n < 48000; ++n) {
+    strung_step(&strung, 0);
+    bow_act(&bow, &strung.chain);
+    strung_read(&strung, &motion);
+    const double energy = motion_energy(&motion, strung.chain.now) +
+                          0.5 * bow.spring * sqrt(strung.chain.now.k1) * bow.rolled * bow.rolled;
+    first = n == 0 ? energy : first;
+    assert_true(energy <= before + 1e-13 * first);
+    before = energy;
+  }
+  assert_true(before < 0.5 * first);
+}
+
+/* Where it could do either, it goes on with what it did. */
+static void hair_keeps_to_what_it_did(void** state) {
+  (void)state;
+  Random random = random_start();
+  uint32_t n_kept = 0;
+  Strung strung;
+  Bow bow;
+  strung_for(&strung, 45, 48000.0, 128, 2.0);
+  bow_start(&bow, &strung.chain, (Stroke){0.13, 1.0, 0.25, 0.01, 0.05}, strung.angle1, 48000.0);
+  for (int n = 0; n < 40000; ++n) {
+    strung_step(&strung, 0);
+    if (n > 1000 && random_below(&random, 10) == 0) {
+      /* The same moment twice, but for what the hair did last. */
+      const Bow now = bow;
+      BowGrip after[2];
+      for (int way = 0; way < 2; ++way) {
+        static _Alignas(CHAIN_ALIGNMENT) char copy[sizeof memory];
+        memcpy(copy, memory, sizeof memory);
+        bow = now;
+        bow.grip = way == 0 ? BOW_STICKS : BOW_SLIPS_BACK;
+        bow_act(&bow, &strung.chain);
+        after[way] = bow.grip;
+        memcpy(memory, copy, sizeof memory);
+      }
+      bow = now;
+      n_kept += after[0] == BOW_STICKS && after[1] == BOW_SLIPS_BACK;
+    }
+    bow_act(&bow, &strung.chain);
+  }
+  print_message("  could do either %u times\n", n_kept);
+  assert_true(n_kept > 10);
+}
+
+static void a_bow_costs_little(void** state) {
+  (void)state;
+  enum { N = 20000 };
+  Strung strung;
+  Bow bow;
+  Bow gone = {0};
+  strung_for(&strung, 45, 48000.0, 128, 2.0);
+  bow_start(&bow, &strung.chain, (Stroke){0.13, 0.5, 0.25, 0.01, 0.05}, strung.angle1, 48000.0);
+  double start_s = bench_clock_now_s();
+  for (int i = 0; i < N; ++i) {
+    bow_act(&bow, &strung.chain);
+  }
+  print_message("  %.1f ns a frame", 1e9 * (bench_clock_now_s() - start_s) / N);
+  start_s = bench_clock_now_s();
+  for (int i = 0; i < N; ++i) {
+    assert_false(bow_act(&gone, &strung.chain));
+  }
+  print_message(", lifted %.1f\n", 1e9 * (bench_clock_now_s() - start_s) / N);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(power_comes_from_the_bow_alone),
+      cmocka_unit_test(a_bow_at_rest_only_brakes),
+      cmocka_unit_test(hair_keeps_to_what_it_did),
+      cmocka_unit_test(bowed_strings_move_as_helmholtz_said),
+      cmocka_unit_test(lifted_strings_ring_on_as_they_are),
+      cmocka_unit_test(attack_makes_no_click),
+      cmocka_unit_test(storms_of_strokes_stay_bounded),
+      cmocka_unit_test(a_bow_costs_little),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
