@@ -230,6 +230,7 @@ void guitar_palm(Guitar* guitar, double weight) {
 void guitar_choke(Guitar* guitar) {
   for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
     guitar_string_damp(&guitar->strings[w], &guitar->patch, GUITAR_CHOKED, 0);
+    guitar_string_untouch(&guitar->strings[w]);
   }
 }
 

@@ -88,7 +88,8 @@ void guitar_bend(Guitar* guitar, uint32_t string, double semitones, double time_
 /** Swing the pitch about where it is; `depth` [semitones] to either side, 0: stop. */
 void guitar_vibrato(Guitar* guitar, uint32_t string, double depth, double rate_hz);
 
-/** Damp a string with the patch's release for a time, INFINITY: until it is plucked. */
+/** Damp a string with the patch's release for a time, INFINITY: until it is plucked.  One that is
+    choked stays so. */
 void guitar_damp(Guitar* guitar, uint32_t string, double time_s);
 
 /** Lift what damps a string. */
@@ -101,7 +102,7 @@ void guitar_touch(Guitar* guitar, uint32_t string, double place, double time_s);
 /** Lay the palm on all strings, by `weight` more than the patch says, 0 to 1; 0: lift it. */
 void guitar_palm(Guitar* guitar, double weight);
 
-/** Every string silent in a few hundredths of a second, fretted as it is. */
+/** Every string silent in a few hundredths of a second, fretted as it is and touched by nobody. */
 void guitar_choke(Guitar* guitar);
 
 /* Looks */

@@ -189,6 +189,9 @@ void guitar_string_damp(GuitarString* string,
                         const GuitarPatch* patch,
                         GuitarDamper damper,
                         uint32_t n_frames) {
+  if (damper == GUITAR_DAMPED && string->damper == GUITAR_CHOKED) {
+    return; /* A finger more keeps nothing ringing, nor does it when it lifts. */
+  }
   string->damper = damper;
   string->n_damped = n_frames;
   wire_choke(&string->wire, damper == GUITAR_CHOKED);
@@ -199,6 +202,10 @@ void guitar_string_touch(GuitarString* string, double place, uint32_t n_frames) 
   string->touched = place;
   string->n_touched = n_frames;
   ramp_to(&string->touch, 1.0f, string->n_gesture);
+}
+
+void guitar_string_untouch(GuitarString* string) {
+  string->n_touched = least(string->n_touched, string->n_gesture);
 }
 
 /* The finger comes in a gesture, and goes in one. */

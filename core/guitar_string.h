@@ -88,7 +88,8 @@ void guitar_string_vibrato(GuitarString* string,
 /** Pluck it, whatever damps it; `pluck.place` is a fraction of the sounding length. */
 void guitar_string_pluck(GuitarString* string, const GuitarPatch* patch, Pluck pluck);
 
-/** Let it be damped for `n_frames`; 0: until it is plucked, or damped otherwise. */
+/** Let it be damped for `n_frames`; 0: until it is plucked, or damped otherwise.  What is choked
+ * stays so until it is plucked or rings by order. */
 void guitar_string_damp(GuitarString* string,
                         const GuitarPatch* patch,
                         GuitarDamper damper,
@@ -96,6 +97,9 @@ void guitar_string_damp(GuitarString* string,
 
 /** Touch it for `n_frames`; `place` is a fraction of the sounding length. */
 void guitar_string_touch(GuitarString* string, double place, uint32_t n_frames);
+
+/** Lift what touches it, in a gesture. */
+void guitar_string_untouch(GuitarString* string);
 
 /** Add `n_frames`, at most GUITAR_MIX_FRAMES, of what the pickups read to `out`. */
 void guitar_string_run(GuitarString* string,

@@ -94,7 +94,8 @@ static void play_event(void* data, const uint8_t* body, uint32_t n_bytes, bool i
     return;
   }
   memcpy(&event, body, sizeof(event));
-  const bool is_heard = event.verb == GUITAR_PLUCK || event.verb == GUITAR_HAMMER;
+  const bool is_heard =
+      event.verb == GUITAR_PLUCK || event.verb == GUITAR_HAMMER || event.verb == GUITAR_LET_RING;
   if (!(is_muted && is_heard)) {
     (void)guitar_event_play(player->guitar, &event);
   }
