@@ -20,10 +20,10 @@ static const uint32_t open_notes[N_STRINGS] = {64, 59, 55, 50, 45, 40};
 
 /*
   Six strings and those beside them, 0.25 of a pluck's peak, 12 dB of level, all to one side: 17.
-  Plucks of one string add, but at random, and what slides to a lower pitch swings wider; so all of
-  it may be doubled, and an instability would be beyond any bound in some hundred frames.
+  Plucks of one string add, but at random, and what slides to a lower pitch swings wider; so all
+  of it may be trebled, and an instability would be beyond any bound in some hundred frames.
 */
-static const double MOST_PEAK = 34.0;
+static const double MOST_PEAK = 51.0;
 
 /* A choked string is let go after 0.1 s, at the next of the looks that come every 1024 frames, the
  * first of them up to a block after that. */
