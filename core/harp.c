@@ -133,18 +133,14 @@ static void retune_all(Harp* harp, uint32_t n_glide) {
   }
 }
 
-/* Lay out the memory of all strings, or with no memory count the bytes that it takes. */
-static size_t lay_out(Harp* harp, char* memory) {
-  size_t size = 0;
+/* A scale may give any key any pitch, so all strings have the same memory. */
+static void lay_out(Harp* harp, char* memory) {
+  const size_t size = chain_size(CHAIN_MAX_MASSES);
+  memset(memory, 0, HARP_KEYS * size);
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    const double lowest_hz = HARP_LOWEST_TUNING_HZ * exp2(HARP_LOWEST_BEND / 12.0);
-    const uint32_t capacity = harp_string_capacity(harp->rate_hz, key, lowest_hz);
-    if (memory) {
-      harp_string_init(&harp->strings[key], harp->rate_hz, key, memory + size, capacity);
-    }
-    size += chain_size(capacity);
+    harp_string_init(&harp->strings[key], harp->rate_hz, key, memory + key * size,
+                     CHAIN_MAX_MASSES);
   }
-  return size;
 }
 
 Harp* harp_new(double rate_hz) {
@@ -154,13 +150,11 @@ Harp* harp_new(double rate_hz) {
   }
   harp->rate_hz = rate_hz;
   harp->n_gesture = wire_gesture_frames(rate_hz);
-  const size_t size = lay_out(harp, NULL) + chain_size(1);
-  harp->memory = aligned_alloc(CHAIN_ALIGNMENT, size);
+  harp->memory = aligned_alloc(CHAIN_ALIGNMENT, HARP_KEYS * chain_size(CHAIN_MAX_MASSES));
   if (!harp->memory) {
     harp_free(harp);
     return NULL;
   }
-  memset(harp->memory, 0, size);
   lay_out(harp, harp->memory);
   return harp;
 }
@@ -199,6 +193,16 @@ void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_frames) {
   }
   if (!is_same) {
     retune_all(harp, n_glide);
+  }
+}
+
+void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]) {
+  for (uint32_t key = 0; key < HARP_KEYS; ++key) {
+    HarpString* const string = &harp->strings[key];
+    if (semitones[key] != string->semitones) {
+      string->semitones = semitones[key];
+      retune(harp, key, harp->n_gesture);
+    }
   }
 }
 

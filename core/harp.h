@@ -23,10 +23,6 @@ enum {
   HARP_MIX_FRAMES = 256, /**< Frames that are mixed at a time */
 };
 
-/** A4 [Hz] and bend [semitones] down to which strings have all the masses that they could hold. */
-#define HARP_LOWEST_TUNING_HZ 400.0
-#define HARP_LOWEST_BEND (-2.0)
-
 /** Largest displacement of one string plucked with full velocity, at level 1. */
 #define HARP_NOTE_PEAK 0.25
 
@@ -79,6 +75,18 @@ void harp_reset(Harp* harp);
 /** Take a new patch; what rings gets there in `n_frames`, and no faster than by a gesture (0: at
    once).  How and where it is plucked, and the most masses, hold from the next pluck on. */
 void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_frames);
+
+/**
+   Tune the keys anew; what rings glides there by a gesture.
+
+   A key then has tuning_hz · 2^((semitones + bend) / 12).  Damping and its tracking stay with the
+   key.  Every string has memory for CHAIN_MAX_MASSES, so that a scale takes none of its masses from
+   it, however low.  A key without a pitch is silent: what rings there is choked.
+
+   @param semitones  Of every key above A4, in any order; NAN: it has no pitch.  `key − 69` is equal
+   temperament, as after harp_new()
+*/
+void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]);
 
 /** Key down: pluck its string.  `velocity` 1 to 127, loudness as its square; harder plucks are a
  * little brighter. */

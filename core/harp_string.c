@@ -37,22 +37,13 @@ static bool restring(HarpString* string, const Patch* patch, double f0_hz) {
   return is_strung;
 }
 
-double harp_string_pitch_hz(const Patch* patch, uint32_t key, double bend_semitones) {
-  return patch->tuning_hz * exp2(((double)key - 69.0 + bend_semitones) / 12.0);
-}
-
-/* No patch has a string of more: loss, stiffness and true partials all add to its load. */
-uint32_t harp_string_capacity(double rate_hz, uint32_t key, double lowest_hz) {
-  const TuningTarget lightest = {
-      .rate_hz = rate_hz,
-      .tone = {.f0_hz = lowest_hz * exp2(((double)key - 69.0) / 12.0), .tau_s = HUGE_VAL},
-  };
-  return tuning_max_masses(&lightest, CHAIN_MAX_MASSES);
+double harp_string_pitch_hz(const HarpString* string, const Patch* patch, double bend_semitones) {
+  return patch->tuning_hz * exp2((string->semitones + bend_semitones) / 12.0);
 }
 
 void harp_string_init(
     HarpString* string, double rate_hz, uint32_t key, void* memory, uint32_t capacity) {
-  *string = (HarpString){.key = key};
+  *string = (HarpString){.key = key, .semitones = (double)key - 69.0};
   wire_init(&string->wire, rate_hz, key, memory, capacity);
 }
 
@@ -62,7 +53,7 @@ void harp_string_retune(HarpString* string,
                         Damper damper,
                         uint32_t n_glide) {
   Wire* const wire = &string->wire;
-  const double f0_hz = harp_string_pitch_hz(patch, string->key, bend_semitones);
+  const double f0_hz = harp_string_pitch_hz(string, patch, bend_semitones);
   TuningTarget target = target_of(string, patch, f0_hz, damper);
   if (!wire_retune(wire, &target, n_glide)) {
     damper = DAMPER_CHOKING;
@@ -78,7 +69,7 @@ void harp_string_retune(HarpString* string,
 
 void harp_string_pluck(
     HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide) {
-  const double f0_hz = harp_string_pitch_hz(patch, string->key, bend_semitones);
+  const double f0_hz = harp_string_pitch_hz(string, patch, bend_semitones);
   if (string->wire.is_awake) {
     mesh_for_pluck(string, patch, f0_hz);
     harp_string_retune(string, patch, bend_semitones, DAMPER_OFF, n_glide);

@@ -23,21 +23,16 @@ typedef enum {
 typedef struct {
   Wire wire;
   uint32_t key;      /**< MIDI note number */
+  double semitones;  /**< Its pitch above A4 [semitones]; NAN: it has none, and is silent */
   uint32_t n_strung; /**< Masses that it was strung with; a bend may have left it fewer */
   Damper damper;
 } HarpString;
 
-/** The pitch of a key [Hz], with a bend in semitones. */
-double harp_string_pitch_hz(const Patch* patch, uint32_t key, double bend_semitones);
+/** The pitch of a string [Hz], with a bend in semitones. */
+double harp_string_pitch_hz(const HarpString* string, const Patch* patch, double bend_semitones);
 
-/**
-   The most masses that a key's string can have at a rate, whatever the patch, down to `lowest_hz`
-   for A4, bent or not; at most CHAIN_MAX_MASSES, 0 if it can never sound.
-*/
-uint32_t harp_string_capacity(double rate_hz, uint32_t key, double lowest_hz);
-
-/** Lay a string at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT.
- */
+/** Lay a string at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT; it
+ * has the pitch of its key in equal temperament, and never more masses than `capacity`. */
 void harp_string_init(
     HarpString* string, double rate_hz, uint32_t key, void* memory, uint32_t capacity);
 

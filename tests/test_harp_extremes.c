@@ -57,19 +57,9 @@ static void fail_case(const Case* c, const char* what, double value) {
 
 /* Plucked at its loudest, from rest. */
 static void pluck(Case* c) {
-  static uint32_t capacities[N_RATES][HARP_KEYS];
-  uint32_t r = 0;
-  while (rates_hz[r] != c->rate_hz) {
-    ++r;
-  }
-  uint32_t* const capacity = &capacities[r][c->key];
-  if (*capacity == 0) {
-    const double lowest_hz = HARP_LOWEST_TUNING_HZ * exp2(HARP_LOWEST_BEND / 12.0);
-    *capacity = harp_string_capacity(c->rate_hz, c->key, lowest_hz);
-  }
-  assert_true(chain_size(*capacity) <= sizeof(memory));
+  assert_true(chain_size(CHAIN_MAX_MASSES) <= sizeof(memory));
   c->patch = settings_patch(&c->setting);
-  harp_string_init(&c->string, c->rate_hz, c->key, memory, *capacity);
+  harp_string_init(&c->string, c->rate_hz, c->key, memory, CHAIN_MAX_MASSES);
   const Pluck hardest = {c->patch.pluck, c->patch.hardness, HARP_NOTE_PEAK};
   harp_string_pluck(&c->string, &c->patch, 0.0, hardest, 0);
 }

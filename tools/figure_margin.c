@@ -43,10 +43,9 @@ static Patch patch_of_loss(double way) {
 
 /* A string as the harp makes it; its memory is laid over whatever was there. */
 static HarpString string_of(const Patch* patch, uint32_t key, void* memory) {
-  const double lowest_hz = HARP_LOWEST_TUNING_HZ * exp2(HARP_LOWEST_BEND / 12.0);
   const Pluck pluck = {patch->pluck, patch->hardness, HARP_NOTE_PEAK};
   HarpString string;
-  harp_string_init(&string, RATE_HZ, key, memory, harp_string_capacity(RATE_HZ, key, lowest_hz));
+  harp_string_init(&string, RATE_HZ, key, memory, CHAIN_MAX_MASSES);
   harp_string_pluck(&string, patch, 0.0, pluck, 0);
   return string;
 }
