@@ -39,8 +39,9 @@ uint32_t events_frame(const Event* event, uint32_t done, uint32_t n_frames) {
   return event->frame < (int64_t)n_frames ? (uint32_t)event->frame : n_frames;
 }
 
-void events_write_none(LV2_Atom_Sequence* notify, LV2_URID type) {
-  if (notify && notify->atom.size >= sizeof(LV2_Atom_Sequence_Body)) {
+uint32_t events_write_none(LV2_Atom_Sequence* notify, LV2_URID type) {
+  const uint32_t room = notify ? notify->atom.size : 0;
+  if (room >= sizeof(LV2_Atom_Sequence_Body)) {
     notify->body.unit = 0;
     notify->body.pad = 0;
     notify->atom.size = sizeof(LV2_Atom_Sequence_Body);
@@ -49,4 +50,20 @@ void events_write_none(LV2_Atom_Sequence* notify, LV2_URID type) {
     notify->atom.size = 0;
     notify->atom.type = 0;
   }
+  return room;
+}
+
+bool events_append(LV2_Atom_Sequence* notify, uint32_t room, const LV2_Atom* atom) {
+  const LV2_Atom_Event head = {.body = *atom};
+  const uint32_t used = notify ? notify->atom.size : 0;
+  const uint64_t padded = ((uint64_t)atom->size + 7u) & ~UINT64_C(7);
+  if (used < sizeof(LV2_Atom_Sequence_Body) || used + sizeof(head) + padded > room) {
+    return false;
+  }
+  uint8_t* const end = (uint8_t*)notify + sizeof(LV2_Atom) + used;
+  memcpy(end, &head, sizeof(head));
+  memcpy(end + sizeof(head), atom + 1, atom->size);
+  memset(end + sizeof(head) + atom->size, 0, (size_t)(padded - atom->size));
+  notify->atom.size = (uint32_t)(used + sizeof(head) + padded);
+  return true;
 }

@@ -33,8 +33,13 @@ bool events_next(const void* sequence, LV2_URID type, uint32_t* offset, Event* e
  * end at the end. */
 uint32_t events_frame(const Event* event, uint32_t done, uint32_t n_frames);
 
-/** Make the host's buffer an empty sequence, for there is nothing to notify of yet, and the host's
- * word on its room must give way; NULL is ignored. */
-void events_write_none(LV2_Atom_Sequence* notify, LV2_URID type);
+/** Make the host's buffer an empty sequence; its word on its room gives way.  NULL is ignored.
+ * @return Bytes that it has room for behind the atom header */
+uint32_t events_write_none(LV2_Atom_Sequence* notify, LV2_URID type);
+
+/** Add an atom at frame 0 to a sequence that events_write_none() has made.
+ * @param room  Bytes behind its atom header
+ * @return false, and nothing written, if it has no room or is NULL */
+bool events_append(LV2_Atom_Sequence* notify, uint32_t room, const LV2_Atom* atom);
 
 #endif

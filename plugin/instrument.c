@@ -2,7 +2,10 @@
 
 #include "plugin/denormals.h"
 #include "plugin/events.h"
+#include "plugin/tuner.h"
+#include "plugin/tuner_state.h"
 
+#include <lv2/core/lv2_util.h>
 #include <lv2/midi/midi.h>
 
 #include <stdlib.h>
@@ -29,6 +32,7 @@ typedef struct {
 
   /* State */
   void* player;
+  Tuner* tuner; /* NULL: it has none */
   Controls controls;
   bool is_fresh; /* Whether nothing has been played since activation: there is nothing to glide
                     from */
@@ -36,15 +40,6 @@ typedef struct {
   float left[INSTRUMENT_FRAMES];
   float right[INSTRUMENT_FRAMES];
 } Instrument;
-
-static const LV2_URID_Map* find_map(const LV2_Feature* const* features) {
-  for (; features && *features; ++features) {
-    if (!strcmp((*features)->URI, LV2_URID__map)) {
-      return (const LV2_URID_Map*)(*features)->data;
-    }
-  }
-  return NULL;
-}
 
 static Urids map_urids(const LV2_URID_Map* map, const char* own_uri) {
   return (Urids){
@@ -126,14 +121,71 @@ static void play_block(Instrument* self, const void* control, uint32_t n_frames)
       done = frame;
       (is_midi ? self->kind->play_midi : self->kind->play_event)(self->player, event.body,
                                                                  event.size, self->is_muted);
+    } else if (self->tuner) {
+      tuner_hear(self->tuner, event.type, event.body, event.size);
     }
   }
   render(self, done, n_frames);
 }
 
+static void free_instrument(Instrument* self) {
+  if (self->player) {
+    self->kind->free(self->player);
+  }
+  tuner_free(self->tuner);
+  free(self);
+}
+
+/* New pitches take effect at the start of a block; which, is the worker's affair. */
+static void take_scale(Instrument* self) {
+  const double* const semitones = self->tuner ? tuner_take(self->tuner) : NULL;
+  if (semitones) {
+    self->kind->set_scale(self->player, semitones);
+  }
+}
+
+static LV2_Worker_Status work(LV2_Handle handle,
+                              LV2_Worker_Respond_Function respond,
+                              LV2_Worker_Respond_Handle respond_handle,
+                              uint32_t size,
+                              const void* data) {
+  const Instrument* const self = handle;
+  (void)respond;
+  (void)respond_handle;
+  return tuner_work(self->tuner, size, data);
+}
+
+/* There is nothing to respond; but a host might not ask whether there is someone to. */
+static LV2_Worker_Status work_response(LV2_Handle handle, uint32_t size, const void* body) {
+  (void)handle;
+  (void)size;
+  (void)body;
+  return LV2_WORKER_SUCCESS;
+}
+
+static LV2_State_Status save(LV2_Handle handle,
+                             LV2_State_Store_Function store,
+                             LV2_State_Handle state,
+                             uint32_t flags,
+                             const LV2_Feature* const* features) {
+  const Instrument* const self = handle;
+  (void)flags;
+  return tuner_state_save(self->tuner, store, state, features);
+}
+
+static LV2_State_Status restore(LV2_Handle handle,
+                                LV2_State_Retrieve_Function retrieve,
+                                LV2_State_Handle state,
+                                uint32_t flags,
+                                const LV2_Feature* const* features) {
+  const Instrument* const self = handle;
+  (void)flags;
+  return tuner_state_restore(self->tuner, retrieve, state, features);
+}
+
 LV2_Handle
 instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* const* features) {
-  const LV2_URID_Map* const map = find_map(features);
+  const LV2_URID_Map* const map = lv2_features_data(features, LV2_URID__map);
   Instrument* const self = map ? calloc(1, sizeof(Instrument)) : NULL;
   if (!self) {
     return NULL;
@@ -142,8 +194,9 @@ instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* co
   self->rate_hz = rate_hz;
   self->urids = map_urids(map, kind->event_uri);
   self->player = kind->new (rate_hz);
-  if (!self->player) {
-    free(self);
+  self->tuner = kind->tuner ? tuner_new(map, features, kind->tuner) : NULL;
+  if (!self->player || (kind->tuner && !self->tuner)) {
+    free_instrument(self);
     return NULL;
   }
   return self;
@@ -165,15 +218,25 @@ void instrument_activate(LV2_Handle handle) {
 void instrument_run(LV2_Handle handle, uint32_t n_frames) {
   Instrument* const self = handle;
   const uint64_t denormals = denormals_flush();
+  LV2_Atom_Sequence* const notify = self->ports[PORT_NOTIFY];
+  const uint32_t room = events_write_none(notify, self->urids.atom_Sequence);
+  take_scale(self);
   take_controls(self, n_frames);
   play_block(self, self->ports[PORT_CONTROL], n_frames);
   write_report(self);
-  events_write_none(self->ports[PORT_NOTIFY], self->urids.atom_Sequence);
+  if (self->tuner) {
+    tuner_tell(self->tuner, notify, room);
+  }
   denormals_restore(denormals);
 }
 
 void instrument_cleanup(LV2_Handle handle) {
-  Instrument* const self = handle;
-  self->kind->free(self->player);
-  free(self);
+  free_instrument(handle);
+}
+
+const void* instrument_tuner_extension(const char* uri) {
+  static const LV2_Worker_Interface worker = {.work = work, .work_response = work_response};
+  static const LV2_State_Interface state = {.save = save, .restore = restore};
+  const void* const work_or_none = strcmp(uri, LV2_WORKER__interface) ? NULL : &worker;
+  return strcmp(uri, LV2_STATE__interface) ? work_or_none : &state;
 }

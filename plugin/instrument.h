@@ -2,14 +2,16 @@
    What every instrument of the bundle does for its host: ports, events and frames.
 
    An InstrumentKind says what is its own.  Events split the block: the frames until an event are
-   run before it is played.  The ports are read once a block.
+   run before it is played.  The ports are read once a block, and so are new pitches of its keys.
 
-   Thread: as LV2 has it; all but instrument_new() and instrument_cleanup() is real-time safe.
+   Thread: as LV2 has it; all but instrument_new(), instrument_cleanup() and what
+   instrument_tuner_extension() leads to is real-time safe.
 */
 #ifndef HOOKE_PLUGIN_INSTRUMENT_H
 #define HOOKE_PLUGIN_INSTRUMENT_H
 
 #include "plugin/ports.h"
+#include "plugin/tuner_urids.h"
 
 #include <lv2/core/lv2.h>
 
@@ -57,6 +59,11 @@ typedef struct {
   /** Run at most INSTRUMENT_FRAMES frames. */
   void (*run)(void* player, uint32_t n_frames, float* left, float* right);
   InstrumentReport (*report)(const void* player);
+
+  const TunerNames* tuner; /**< What its tuning by files is called; NULL: it has none */
+
+  /** Tune all keys, in semitones above A4, NAN: silent; of one that has a tuner. */
+  void (*set_scale)(void* player, const double semitones[SCALE_KEYS]);
 } InstrumentKind;
 
 /** For instantiate(): NULL if the host offers no urid:map, or `kind` makes no player.  `kind` has
@@ -70,5 +77,8 @@ void instrument_connect_port(LV2_Handle handle, uint32_t index, void* data);
 void instrument_activate(LV2_Handle handle);
 void instrument_run(LV2_Handle handle, uint32_t n_frames);
 void instrument_cleanup(LV2_Handle handle);
+
+/** For one that has a tuner: its state and its work. */
+const void* instrument_tuner_extension(const char* uri);
 
 #endif

@@ -38,10 +38,19 @@ static void run(void* player, uint32_t n_frames, float* left, float* right) {
   harp_run(player, n_frames, left, right);
 }
 
+static void set_scale(void* player, const double semitones[SCALE_KEYS]) {
+  harp_set_scale(player, semitones);
+}
+
 static InstrumentReport report(const void* player) {
   const HarpReport harp = harp_report(player);
   return (InstrumentReport){harp.n_strings, harp.n_masses, harp.headroom};
 }
+
+static const TunerNames tuner = {
+    .plugin = STRINGS_URI,
+    .files = {STRINGS_URI "#scale", STRINGS_URI "#mapping"},
+};
 
 static const InstrumentKind kind = {
     .n_ports = STRINGS_N_PORTS,
@@ -55,6 +64,8 @@ static const InstrumentKind kind = {
     .play_midi = play_midi,
     .run = run,
     .report = report,
+    .tuner = &tuner,
+    .set_scale = set_scale,
 };
 
 static LV2_Handle instantiate(const LV2_Descriptor* descriptor,
@@ -73,4 +84,5 @@ const LV2_Descriptor strings_descriptor = {
     .activate = instrument_activate,
     .run = instrument_run,
     .cleanup = instrument_cleanup,
+    .extension_data = instrument_tuner_extension,
 };

@@ -1,0 +1,31 @@
+/**
+   The files that tune an instrument, as state: each a path under its parameter's name, or if there
+   is none an empty atom:String, for hosts take an empty path for one relative to their own file.
+
+   Files are read by restore() itself, for hosts that restore a session pass no worker; what is
+   playing meanwhile goes on.  What a state does not say stays as it is, and a path whose file is
+   missing or broken is kept.
+
+   Thread: any but the audio thread, also while that runs.
+*/
+#ifndef HOOKE_PLUGIN_TUNER_STATE_H
+#define HOOKE_PLUGIN_TUNER_STATE_H
+
+#include "plugin/tuner.h"
+
+#include <lv2/state/state.h>
+
+/** As LV2_State_Interface has it. */
+LV2_State_Status tuner_state_save(Tuner* tuner,
+                                  LV2_State_Store_Function store,
+                                  LV2_State_Handle handle,
+                                  const LV2_Feature* const* features);
+
+/** The same.  @return LV2_STATE_ERR_BAD_TYPE if something else stands there; it is as if it did not
+ */
+LV2_State_Status tuner_state_restore(Tuner* tuner,
+                                     LV2_State_Retrieve_Function retrieve,
+                                     LV2_State_Handle handle,
+                                     const LV2_Feature* const* features);
+
+#endif

@@ -1,0 +1,114 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "plugin/tuner_store.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { IS_NEW = 4, INDEX = 3 };
+
+static const double A4_HZ = 440.0;
+
+/* The instrument's own tuning of A4 multiplies what is made for 440 Hz.  What is equal temperament
+ * is so to the last bit. */
+static double semitones_of(uint32_t key, double hz) {
+  const double equal = (double)key - 69.0;
+  return hz == A4_HZ * exp2(equal / 12.0) ? equal : 12.0 * log2(hz / A4_HZ);
+}
+
+/* The readers leave nothing that cannot be tuned. */
+static void tune(const TunerStore* store, double semitones[SCALE_KEYS]) {
+  double hz[SCALE_KEYS];
+  for (uint32_t key = 0; key < SCALE_KEYS; ++key) {
+    hz[key] = (double)NAN;
+  }
+  (void)scale_tune(&store->scale, &store->map, A4_HZ, hz);
+  for (uint32_t key = 0; key < SCALE_KEYS; ++key) {
+    semitones[key] = semitones_of(key, hz[key]);
+  }
+}
+
+static void write_table(const TunerStore* store, TunerTable* table) {
+  tune(store, table->semitones);
+  table->paths = store->paths;
+  table->n_wishes = store->n_wishes;
+}
+
+static void hand_over(TunerStore* store) {
+  write_table(store, &store->tables[store->written]);
+  const uint32_t passed =
+      atomic_exchange_explicit(&store->between, store->written | IS_NEW, memory_order_acq_rel);
+  store->written = passed & INDEX;
+}
+
+static void keep_path(TunerStore* store, TunerFile file, const char* path) {
+  char* const kept = store->paths.path[file];
+  const size_t n_bytes = strnlen(path, TUNER_PATH_SIZE - 1);
+  memcpy(kept, path, n_bytes);
+  kept[n_bytes] = '\0';
+}
+
+static void read_scale(TunerStore* store, const char* path, TunerFault* fault) {
+  scale_equal(&store->scale);
+  (void)(*path && tuner_file_scale(path, &store->scale, fault));
+}
+
+static void read_map(TunerStore* store, const char* path, TunerFault* fault) {
+  scale_map_linear(&store->map);
+  (void)(*path && tuner_file_map(path, &store->map, fault));
+}
+
+bool tuner_store_init(TunerStore* store) {
+  memset(store, 0, sizeof(*store));
+  if (pthread_mutex_init(&store->lock, NULL)) {
+    return false;
+  }
+  scale_equal(&store->scale);
+  scale_map_linear(&store->map);
+  store->written = 0;
+  atomic_init(&store->between, 1u);
+  store->played = 2;
+  write_table(store, &store->tables[store->played]);
+  return true;
+}
+
+void tuner_store_clear(TunerStore* store) {
+  (void)pthread_mutex_destroy(&store->lock);
+}
+
+void tuner_store_load(TunerStore* store,
+                      const char* const paths[TUNER_N_FILES],
+                      bool is_wish,
+                      TunerFaults* faults) {
+  (void)pthread_mutex_lock(&store->lock);
+  for (int f = 0; f < TUNER_N_FILES; ++f) {
+    faults->fault[f].line[0] = '\0';
+    if (paths[f]) {
+      keep_path(store, (TunerFile)f, paths[f]);
+      (f == TUNER_SCALE ? read_scale : read_map)(store, store->paths.path[f], &faults->fault[f]);
+    }
+  }
+  store->n_wishes += is_wish ? 1 : 0;
+  hand_over(store);
+  (void)pthread_mutex_unlock(&store->lock);
+}
+
+void tuner_store_paths(TunerStore* store, TunerPaths* paths) {
+  (void)pthread_mutex_lock(&store->lock);
+  *paths = store->paths;
+  (void)pthread_mutex_unlock(&store->lock);
+}
+
+bool tuner_store_take(TunerStore* store) {
+  if (!(atomic_load_explicit(&store->between, memory_order_relaxed) & IS_NEW)) {
+    return false;
+  }
+  const uint32_t taken =
+      atomic_exchange_explicit(&store->between, store->played, memory_order_acq_rel);
+  store->played = taken & INDEX;
+  return true;
+}
+
+const TunerTable* tuner_store_table(const TunerStore* store) {
+  return &store->tables[store->played];
+}

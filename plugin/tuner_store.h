@@ -1,0 +1,90 @@
+/**
+   The two files that tune an instrument, and the table of pitches that they make.
+
+   Who loads and who plays share three tables: one is written, one is read, and the third, the last
+   that was finished, lies between them and changes hands in one exchange.  So the audio thread
+   neither waits nor frees anything, and a table that it did not come to take is written over.
+
+   A file that is missing or broken counts as none, so that what is heard follows from the paths
+   and what lies there, and from nothing that was before; its path is kept.
+*/
+#ifndef HOOKE_PLUGIN_TUNER_STORE_H
+#define HOOKE_PLUGIN_TUNER_STORE_H
+
+#include "plugin/tuner_file.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+/** Which file. */
+typedef enum { TUNER_SCALE, TUNER_MAPPING, TUNER_N_FILES } TunerFile;
+
+/** Paths of both; an empty one is no file. */
+typedef struct {
+  char path[TUNER_N_FILES][TUNER_PATH_SIZE];
+} TunerPaths;
+
+/** What they make. */
+typedef struct {
+  double semitones[SCALE_KEYS]; /**< Of every key above A4; NAN: it has no pitch */
+  TunerPaths paths;
+  uint32_t n_wishes; /**< Loads that a player asked for so far */
+} TunerTable;
+
+typedef struct {
+  /* Of those who load, one at a time */
+  pthread_mutex_t lock;
+  Scale scale;
+  ScaleMap map;
+  TunerPaths paths;
+  uint32_t n_wishes;
+  uint32_t written; /**< Index of the table that is written */
+
+  /* Of both */
+  atomic_uint between; /**< Index of the table between them, and whether it is a new one */
+
+  /* Of the audio thread */
+  uint32_t played; /**< Index of the table that is read */
+
+  TunerTable tables[3];
+} TunerStore;
+
+/** Without files: equal temperament.  @return false if it cannot be had */
+bool tuner_store_init(TunerStore* store);
+
+void tuner_store_clear(TunerStore* store);
+
+/** What is wrong with each file; an empty line: nothing. */
+typedef struct {
+  TunerFault fault[TUNER_N_FILES];
+} TunerFaults;
+
+/**
+   Read files, or forget them, and hand the table that results to the audio thread.
+
+   Thread: any, several at a time; takes memory, waits and reads files, so never the audio thread
+   but where a host has the work done there.
+
+   @param paths     Of less than TUNER_PATH_SIZE bytes, others are cut; empty: no file; NULL: as it
+   was, and not read again
+   @param is_wish   Whether a player asked for it, and not a session
+   @param[out] faults  What is wrong with those that were read
+*/
+void tuner_store_load(TunerStore* store,
+                      const char* const paths[TUNER_N_FILES],
+                      bool is_wish,
+                      TunerFaults* faults);
+
+/** Copy the paths.  Thread: as for tuner_store_load(). */
+void tuner_store_paths(TunerStore* store, TunerPaths* paths);
+
+/** Take a new table if there is one.  Thread: audio; real-time safe. */
+bool tuner_store_take(TunerStore* store);
+
+/** The table that was taken last; at first that of equal temperament.  Thread: audio; real-time
+ * safe. */
+const TunerTable* tuner_store_table(const TunerStore* store);
+
+#endif
