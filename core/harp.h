@@ -52,9 +52,13 @@ typedef struct {
   uint32_t n_fade; /**< Frames that the next fade will take */
   HarpKey keys[HARP_KEYS];
   HarpString strings[HARP_KEYS];
-  void* memory;               /**< Memory of all strings; owned */
-  Wire* awake[HARP_KEYS];     /**< The strings awake, while they are run */
-  ChainPart parts[HARP_KEYS]; /**< Their chains, and where they are read */
+  void* memory;                 /**< Memory of all strings; owned */
+  HarpString* awake[HARP_KEYS]; /**< The strings awake, while they are run */
+  ChainPart parts[HARP_KEYS];   /**< Their chains, and where they are read */
+  bool is_bowed;                /**< Whether a note has been bowed since it was reset */
+  double rest[2];               /**< What stands still on each side, once one has */
+  HarpReading reading;          /**< How they were read last */
+  float before[CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is differentiated */
   float mix[CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;
 

@@ -10,9 +10,9 @@ static double fold(double place) {
 
 static void add_places(HarpReading* reading, HarpPlaces places) {
   const double half = reading->n_sides == 2 ? 0.5 * places.spread : 0.0;
-  reading->place[reading->n_taps++] = fold(places.place - half);
+  reading->ears[reading->n_taps++] = (HarpEar){places.sense, fold(places.place - half), false};
   if (reading->n_sides == 2) {
-    reading->place[reading->n_taps++] = fold(places.place + half);
+    reading->ears[reading->n_taps++] = (HarpEar){places.sense, fold(places.place + half), true};
   }
 }
 
@@ -21,9 +21,13 @@ void harp_pickups_set(HarpPickups* pickups, HarpPlaces places) {
   ramp_init(&pickups->fade, 1.0f);
 }
 
+static bool is_same(HarpPlaces a, HarpPlaces b) {
+  return a.sense == b.sense && a.place == b.place && a.spread == b.spread;
+}
+
 void harp_pickups_move(HarpPickups* pickups, HarpPlaces places, uint32_t n_frames) {
   const HarpPlaces heard = pickups->heard;
-  const bool is_there = places.place == heard.place && places.spread == heard.spread;
+  const bool is_there = is_same(places, heard);
   if (pickups->fade.n_left == 0 && !is_there) {
     pickups->fading = heard;
     pickups->heard = places;
@@ -41,4 +45,14 @@ HarpReading harp_pickups_reading(const HarpPickups* pickups) {
     add_places(&reading, pickups->fading);
   }
   return reading;
+}
+
+bool harp_pickups_are_same(const HarpReading* a, const HarpReading* b) {
+  bool are_same = a->n_taps == b->n_taps;
+  for (uint32_t t = 0; are_same && t < a->n_taps; ++t) {
+    const HarpEar* const x = &a->ears[t];
+    const HarpEar* const y = &b->ears[t];
+    are_same = x->sense == y->sense && x->place == y->place && x->is_far == y->is_far;
+  }
+  return are_same;
 }

@@ -10,13 +10,15 @@
 #define HOOKE_CORE_HARP_PICKUPS_H
 
 #include "core/chain_kernel.h"
+#include "core/patch.h"
 #include "core/ramp.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/** Where strings are read. */
+/** Where strings are read, and what is heard of them. */
 typedef struct {
+  Sense sense;
   double place;  /**< Fraction of the length, 0 to 1 */
   double spread; /**< Between left and right, 0 to 0.5; 0: one pickup.  Past an end, folded back */
 } HarpPlaces;
@@ -28,10 +30,17 @@ typedef struct {
   Ramp fade;         /**< From `fading` to `heard`: 0 to 1 */
 } HarpPickups;
 
+/** One tap of every string. */
+typedef struct {
+  Sense sense;
+  double place; /**< Fraction of the length, 0 to 1 */
+  bool is_far;  /**< On the right */
+} HarpEar;
+
 /** What is to be read now: nothing that is not heard. */
 typedef struct {
-  double
-      place[CHAIN_MAX_TAPS]; /**< Left and right, or the one that is both; then those that fade */
+  HarpEar
+      ears[CHAIN_MAX_TAPS]; /**< Left and right, or the one that is both; then those that fade */
   uint32_t n_taps;
   uint32_t n_sides; /**< 1 where left and right are one */
   bool is_fading;
@@ -46,5 +55,8 @@ void harp_pickups_move(HarpPickups* pickups, HarpPlaces places, uint32_t n_frame
 
 /** What is to be read until the fade, if there is one, is over. */
 HarpReading harp_pickups_reading(const HarpPickups* pickups);
+
+/** Whether both read alike. */
+bool harp_pickups_are_same(const HarpReading* a, const HarpReading* b);
 
 #endif

@@ -2,6 +2,41 @@
 
 #include <math.h>
 
+static const double PI = 3.14159265358979323846;
+
+/* A hammer's mass, as a share of the string's. */
+static const double HAMMER_MASS = 0.25;
+
+/* What strikes and bows are made stronger by, as each sense hears them, to be as loud as plucks. */
+static const double strike_gains[] = {
+    [SENSE_DISPLACEMENT] = 1.5, [SENSE_VELOCITY] = 3.0, [SENSE_FORCE] = 3.1};
+static const double bow_gains[] = {
+    [SENSE_DISPLACEMENT] = 1.2, [SENSE_VELOCITY] = 0.9, [SENSE_FORCE] = 0.85};
+
+/* How long a bow takes to come to its speed, and to be lifted [s]. */
+static const double BOW_ATTACK_S = 0.04;
+static const double BOW_RELEASE_S = 0.03;
+
+static bool is_touched(const HarpString* string) {
+  return string->hammer.is_active || string->bow.is_active;
+}
+
+/* What is at it sees that something else has moved it. */
+static void look(HarpString* string) {
+  if (string->hammer.is_active) {
+    hammer_look(&string->hammer, &string->wire.chain);
+  }
+  if (string->bow.is_active) {
+    bow_look(&string->bow, &string->wire.chain);
+  }
+}
+
+/* Nothing is left at a string that sleeps. */
+static void leave(HarpString* string) {
+  string->hammer.is_active = false;
+  string->bow.is_active = false;
+}
+
 /* What a damper adds acts from outside. */
 static TuningTarget
 target_of(const HarpString* string, const Patch* patch, double f0_hz, Damper damper) {
@@ -55,19 +90,58 @@ void harp_string_retune(HarpString* string,
   Wire* const wire = &string->wire;
   const double f0_hz = harp_string_pitch_hz(string, patch, bend_semitones);
   TuningTarget target = target_of(string, patch, f0_hz, damper);
+  if (is_touched(string)) {
+    wire_feed(wire);
+  }
   if (!wire_retune(wire, &target, n_glide)) {
     damper = DAMPER_CHOKING;
     target = target_of(string, patch, wire->f0_hz, damper);
     if (!wire_retune(wire, &target, n_glide)) {
       wire_sleep(wire);
+      leave(string);
       return;
     }
   }
   wire_choke(wire, damper == DAMPER_CHOKING);
   string->damper = damper;
+  if (damper == DAMPER_CHOKING) {
+    leave(string);
+  }
+  look(string);
 }
 
-void harp_string_pluck(
+void harp_string_rest(HarpString* string) {
+  wire_sleep(&string->wire);
+  leave(string);
+}
+
+static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
+  const Chain* const chain = &string->wire.chain;
+  const double rate_hz = string->wire.rate_hz;
+  const double angle1 = 2.0 * PI * string->wire.f0_hz / rate_hz;
+  switch (patch->exciter) {
+  case EXCITER_PLUCK:
+    wire_pluck(&string->wire, pluck);
+    look(string);
+    break;
+  case EXCITER_STRIKE: {
+    const Strike strike = {pluck.place, pluck.hardness, HAMMER_MASS,
+                           strike_gains[patch->sense] * pluck.amplitude};
+    hammer_throw(&string->hammer, chain, strike, angle1, rate_hz);
+    wire_feed(&string->wire);
+    break;
+  }
+  case EXCITER_BOW: {
+    const Stroke stroke = {pluck.place, pluck.hardness, bow_gains[patch->sense] * pluck.amplitude,
+                           BOW_ATTACK_S, BOW_RELEASE_S};
+    bow_start(&string->bow, chain, stroke, angle1, rate_hz);
+    wire_feed(&string->wire);
+    break;
+  }
+  }
+}
+
+void harp_string_play(
     HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide) {
   const double f0_hz = harp_string_pitch_hz(string, patch, bend_semitones);
   if (string->wire.is_awake) {
@@ -77,6 +151,28 @@ void harp_string_pluck(
     return;
   }
   if (string->wire.is_awake && string->damper == DAMPER_OFF) {
-    wire_pluck(&string->wire, pluck);
+    excite(string, patch, pluck);
   }
+}
+
+void harp_string_lift(HarpString* string) {
+  if (string->bow.is_active) {
+    bow_lift(&string->bow);
+  }
+}
+
+uint32_t harp_string_stretch(const HarpString* string) {
+  return is_touched(string) ? 1 : wire_stretch(&string->wire);
+}
+
+void harp_string_pass(HarpString* string, uint32_t n_frames) {
+  Wire* const wire = &string->wire;
+  if (is_touched(string)) {
+    hammer_act(&string->hammer, &wire->chain);
+    bow_act(&string->bow, &wire->chain);
+    if (wire->n_until_look == n_frames || !is_touched(string)) {
+      wire_feed(wire);
+    }
+  }
+  wire_pass(wire, n_frames);
 }

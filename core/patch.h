@@ -6,6 +6,21 @@
 
 #include <stdint.h>
 
+/** What sets a string in motion. */
+typedef enum {
+  EXCITER_PLUCK,  /**< A finger or a pick */
+  EXCITER_STRIKE, /**< A hammer with a felt */
+  EXCITER_BOW     /**< A bow, as long as the key is down */
+} Exciter;
+
+/** What pickups hear of a string; about as loud in all. */
+typedef enum {
+  SENSE_DISPLACEMENT, /**< How far it is from rest */
+  SENSE_VELOCITY, /**< How fast it moves, as a magnet with a coil does: brighter by 6 dB an octave
+                   */
+  SENSE_FORCE     /**< How it pulls at the bridge, as a piezo does; wherever the pickup is */
+} Sense;
+
 /** Every value must be in its range and a number: who fills a patch in clamps it. */
 typedef struct {
   double level;         /**< Gain, ≥ 0 */
@@ -14,11 +29,13 @@ typedef struct {
   double loss; /**< Share of the fundamental's damping that sits between the masses, 0 to 1 */
   double inharmonicity; /**< B, ≥ 0; 0: perfectly flexible */
   Partials partials;    /**< How true strings are to the ideal one */
+  Sense sense;          /**< What pickups hear */
   double pickup;        /**< Where strings are read, fraction of the length, 0 to 1 */
   double spread; /**< Between the left and the right pickup, fraction of the length, 0 to 0.5; past
                     an end, folded back */
-  double pluck;  /**< Where strings are plucked, fraction of the length, 0 to 1 */
-  double hardness;  /**< Of what plucks, 0 to 1 */
+  Exciter exciter; /**< What strings are played with */
+  double pluck; /**< Where strings are plucked, struck or bowed, fraction of the length, 0 to 1 */
+  double hardness;  /**< Of what plucks or strikes, or pressure of the bow, 0 to 1 */
   double release_s; /**< τ once the key is up [s], > 0; a damper never makes a string ring longer */
   double tuning_hz;    /**< A4 [Hz], > 0 */
   uint32_t max_masses; /**< Most masses of a string, ≥ 1 */

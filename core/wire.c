@@ -168,6 +168,11 @@ void wire_pluck(Wire* wire, Pluck pluck) {
   note_pluck(wire, before);
 }
 
+void wire_feed(Wire* wire) {
+  wire->given = fmax(wire->given, motion_of(wire));
+  wire->n_until_look = LOOK_FRAMES;
+}
+
 void wire_choke(Wire* wire, bool is_choked) {
   wire->n_choked = is_choked == wire->is_choked ? wire->n_choked : 0;
   wire->is_choked = is_choked;

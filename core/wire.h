@@ -83,6 +83,10 @@ bool wire_mesh(Wire* wire, const TuningTarget* target, uint32_t n_masses);
 /** Add a pluck to the motion of a wire that is awake. */
 void wire_pluck(Wire* wire, Pluck pluck);
 
+/** What moves a wire that is awake is given to it as a pluck would give it, and it is not looked at
+ * for a while: call it now and then while something plays on it. */
+void wire_feed(Wire* wire);
+
 /** Say whether it is choked, see WIRE_CHOKE_S. */
 void wire_choke(Wire* wire, bool is_choked);
 

@@ -61,7 +61,7 @@ static void pluck(Case* c) {
   c->patch = settings_patch(&c->setting);
   harp_string_init(&c->string, c->rate_hz, c->key, memory, CHAIN_MAX_MASSES);
   const Pluck hardest = {c->patch.pluck, c->patch.hardness, HARP_NOTE_PEAK};
-  harp_string_pluck(&c->string, &c->patch, 0.0, hardest, 0);
+  harp_string_play(&c->string, &c->patch, 0.0, hardest, 0);
 }
 
 /* How near the limit a single mass of this tone is: what it would take to sound at all. */
