@@ -131,7 +131,7 @@ static void the_port_touches_every_note(void** state) {
 }
 
 /* Ways from one pitch to another. */
-typedef enum { SLIDE, BEND, WHEEL, VIBRATO, WHEEL_AND_SLIDE, N_WAYS } Way;
+typedef enum { FINGER, SLIDE, BEND, WHEEL, VIBRATO, WHEEL_AND_SLIDE, N_WAYS } Way;
 
 /* Set out from fret 3 on a string that rings, get there by frame RATE / 2; where to, in frets. */
 static double go(Host* host, Way way, uint32_t string, uint32_t channel) {
@@ -141,6 +141,9 @@ static double go(Host* host, Way way, uint32_t string, uint32_t channel) {
   const float fret = 3.0f + 5.5f * (float)turn;
   if (way == SLIDE || way == WHEEL_AND_SLIDE) {
     guitar_send(host, 9600, (GuitarEvent){GUITAR_SLIDE, string, {fret, 0.23f}});
+  }
+  if (way == FINGER) {
+    guitar_send(host, 9600, (GuitarEvent){GUITAR_FRET, string, {fret}});
   }
   if (way == BEND) {
     guitar_send(host, 9600, (GuitarEvent){GUITAR_BEND, string, {1.7f * (float)turn, 0.2f}});
@@ -156,12 +159,14 @@ static double go(Host* host, Way way, uint32_t string, uint32_t channel) {
     strings_midi(host, 22000 + 77 * string, 0xB0 | channel, CC_VIBRATO, 0);
   }
   const double by_wheel = way == WHEEL || way == WHEEL_AND_SLIDE ? bent : 0.0;
-  const double slid = way == SLIDE || way == WHEEL_AND_SLIDE ? (double)fret : 3.0;
+  const bool has_slid = way == FINGER || way == SLIDE || way == WHEEL_AND_SLIDE;
+  const double slid = has_slid ? (double)fret : 3.0;
   return slid + by_wheel + (way == BEND ? (double)(1.7f * (float)turn) : 0.0);
 }
 
 static void ways_end_in_tune(void** state) {
-  static const char* const names[N_WAYS] = {"slide", "bend", "wheel", "vibrato", "wheel and slide"};
+  static const char* const names[N_WAYS] = {"finger", "slide",   "bend",
+                                            "wheel",  "vibrato", "wheel and slide"};
   ToneError worst = {0};
   (void)state;
   Host* const host = guitar_open(RATE, BLOCK);
@@ -189,11 +194,64 @@ static void ways_end_in_tune(void** state) {
   host_free(host);
 }
 
+/* The coefficients move in pieces of 64 frames; in straight lines, for stairs would hum at 750 Hz
+ * and as far from it as the pitch is.  Heard on a low string so dark that nothing else is there. */
+static void slides_do_not_hum(void** state) {
+  enum { START = RATE, LENGTH = 9600 };
+  (void)state;
+  Host* const host = guitar_open(RATE, BLOCK);
+  Sound sound = sound_new(START + LENGTH);
+  guitar_set_plain(host);
+  strings_set(host, "loss", 1.0);
+  strings_set(host, "damping", 2.0);
+  strings_set(host, "hardness", 0.0);
+  guitar_send(host, 0, (GuitarEvent){GUITAR_PLUCK, 5, {1.0f, NAN, NAN}});
+  guitar_send(host, START, (GuitarEvent){GUITAR_SLIDE, 5, {12.0f, (float)LENGTH / RATE}});
+  strings_run(host, &sound, 0, sound.n_frames, BLOCK);
+  double tone = -HUGE_VAL;
+  double hum = -HUGE_VAL;
+  for (double f_hz = 80.0; f_hz < 170.0; f_hz += 5.0) {
+    tone = fmax(tone, level_of(&sound, START, LENGTH, f_hz));
+    hum = fmax(hum, level_of(&sound, START, LENGTH, 750.0 - f_hz));
+    hum = fmax(hum, level_of(&sound, START, LENGTH, 750.0 + f_hz));
+  }
+  assert_within("hum, of the tone [dB]", hum - tone, -110.0);
+  sound_free(&sound);
+  host_free(host);
+}
+
+/* A hand that bends by nothing on the way leaves the swing where it is. */
+static void a_vibrato_swings_on(void** state) {
+  (void)state;
+  Sound sounds[2] = {sound_new(RATE / 2), sound_new(RATE / 2)};
+  double off = 0.0;
+  for (size_t i = 0; i < 2; ++i) {
+    Host* const host = guitar_open(RATE, BLOCK);
+    guitar_set_plain(host);
+    guitar_send(host, 0, (GuitarEvent){GUITAR_PLUCK, 4, {1.0f, NAN, NAN}});
+    guitar_send(host, 4800, (GuitarEvent){GUITAR_VIBRATO, 4, {0.5f, 5.0f}});
+    for (size_t at = 6000; i > 0 && at < RATE / 2; at += 1999) {
+      guitar_send(host, at, (GuitarEvent){GUITAR_BEND, 4, {0.0f, 0.0f}});
+    }
+    strings_run(host, &sounds[i], 0, RATE / 2, BLOCK);
+    host_free(host);
+  }
+  for (size_t i = 0; i < RATE / 2; ++i) {
+    off = fmax(off, fabs((double)sounds[0].left[i] - (double)sounds[1].left[i]));
+  }
+  /* Its sine is cut into straight lines elsewhere. */
+  assert_within("difference, of the peak", off / measure_peak(sounds[0].left, RATE / 2), 0.001);
+  sound_free(&sounds[0]);
+  sound_free(&sounds[1]);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(touched_strings_ring_in_harmonics),
       cmocka_unit_test(the_port_touches_every_note),
       cmocka_unit_test(ways_end_in_tune),
+      cmocka_unit_test(slides_do_not_hum),
+      cmocka_unit_test(a_vibrato_swings_on),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
