@@ -39,6 +39,15 @@ void strung_up(Strung* strung,
   assert_true(chain_hold(&strung->chain, numbers));
 }
 
+void strung_key(
+    Strung* strung, void* memory, uint32_t key, double rate_hz, uint32_t limit, double tau_s) {
+  const TuningTarget target = {.rate_hz = rate_hz,
+                               .tone = {strung_pitch_hz(key), tau_s},
+                               .loss = 0.01,
+                               .partials = PARTIALS_TRUEST};
+  strung_up(strung, memory, &target, limit, CHAIN_FLOAT);
+}
+
 void strung_up_anywhere(Strung* strung, void* memory, Random* random, ChainNumbers numbers) {
   const uint32_t key = 21 + random_below(random, 88);
   const TuningTarget target = {

@@ -27,6 +27,10 @@ double strung_pitch_hz(uint32_t key);
 void strung_up(
     Strung* strung, void* memory, const TuningTarget* target, uint32_t limit, ChainNumbers numbers);
 
+/** The string of a key, with true partials and little loss between its masses, in floats. */
+void strung_key(
+    Strung* strung, void* memory, uint32_t key, double rate_hz, uint32_t limit, double tau_s);
+
 /** One anywhere: any key, rate and partials, τ and loss short or long, one mass to the limit. */
 void strung_up_anywhere(Strung* strung, void* memory, Random* random, ChainNumbers numbers);
 

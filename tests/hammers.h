@@ -1,0 +1,21 @@
+/** What the tests of hammers share. */
+#ifndef HOOKE_TESTS_HAMMERS_H
+#define HOOKE_TESTS_HAMMERS_H
+
+#include "core/hammer.h"
+#include "tests/random.h"
+#include "tests/strung.h"
+
+#include <stdint.h>
+
+/** Any hammer, scaled so that one blow presses a rigid felt of its kind by about what was drawn;
+ * its felt loses nothing where `loss` is 0. */
+HammerMake hammers_anyhow(Random* random, double loss);
+
+/** Give every mass any position and velocity up to `size`. */
+void hammers_shake(Strung* strung, Random* random, double size);
+
+/** Strike, and step until the hammer has left.  @return Its steps, and those in which it pressed */
+uint32_t hammers_strike(Strung* strung, Strike wanted, uint32_t* n_pressed);
+
+#endif
