@@ -169,13 +169,14 @@ typedef enum {
   DO_FRET,
   DO_TOUCH,
   DO_CAPO,
+  DO_LEVEL,
   DO_SOUND_OFF,
   N_DEEDS
 } Deed;
 
-static const char* const deeds[N_DEEDS] = {"note off", "all notes off", "palm",         "vibrato",
-                                           "bend up",  "bend down",     "slide",        "fret",
-                                           "touch",    "capo",          "all sound off"};
+static const char* const deeds[N_DEEDS] = {"note off", "all notes off", "palm",  "vibrato",
+                                           "bend up",  "bend down",     "slide", "fret",
+                                           "touch",    "capo",          "level", "all sound off"};
 
 static void act(Host* host, Deed deed, size_t at, uint32_t channel, uint32_t string) {
   const uint32_t cc = 0xB0 | channel;
@@ -206,6 +207,7 @@ static void act(Host* host, Deed deed, size_t at, uint32_t channel, uint32_t str
     guitar_send(host, at, (GuitarEvent){GUITAR_TOUCH, string, {0.5f, 0.02f}});
     break;
   case DO_CAPO:
+  case DO_LEVEL:
   case DO_SOUND_OFF:
   case N_DEEDS:
     strings_midi(host, at, cc, STRINGS_SOUND_OFF, 0);
@@ -224,11 +226,14 @@ static double try_deed(Host* host, Deed deed, Player player, uint32_t string, ui
   strings_run(host, &sound, 0, at, BLOCK);
   if (deed == DO_CAPO) {
     strings_set(host, "capo", 5.0);
+  } else if (deed == DO_LEVEL) {
+    strings_set(host, "level", -20.0);
   } else {
     act(host, deed, 2, channel_of(player, string), string);
   }
   strings_run(host, &sound, at, sound.n_frames, BLOCK);
   strings_set(host, "capo", 0.0);
+  strings_set(host, "level", 0.0);
   Edge most =
       larger(edge_of_pluck(host, player, string, 2), edge_of_pluck(host, player, string, 9));
   most = larger(most, edge_of(&sound, done, sound.n_frames));
