@@ -1,7 +1,7 @@
 /* Buffers as hosts hand them over: at odd places, too small, and with sequences that lie.  Each is
  * as long as it says, so that a memory checker sees a byte too far. */
 #include "plugin/strings_ports.h"
-#include "tests/strings_host.h"
+#include "tests/scale_host.h"
 
 #include <lv2/atom/atom.h>
 #include <lv2/midi/midi.h>
@@ -121,6 +121,24 @@ static void what_is_no_sequence_is_not_read(void** state) {
   host_free(host);
 }
 
+/* A path is read whole or not at all; the padding behind it may be missing. */
+static void a_message_cut_short_is_not_heard(void** state) {
+  (void)state;
+  static _Alignas(8) uint8_t message[SCALE_HOST_PATH + 256];
+  const char path[] = "/nowhere/a.scl";
+  Host* const host = strings_open(RATE, BLOCK);
+  const uint32_t size = scale_message(host, SCALE_PARAMETER, path, message, sizeof(message));
+  host_worker(host)->mode = HOST_WORK_AFTER_RUN;
+  for (uint32_t cut = 0; cut <= size; ++cut) {
+    const unsigned n_works = host_worker(host)->n_works;
+    assert_true(host_atom(host, 0, LV2_ATOM__Object, message + sizeof(LV2_Atom), cut));
+    assert_true(host_run(host, BLOCK));
+    const bool is_whole = cut + 1 >= size;
+    assert_int_equal(host_worker(host)->n_works, n_works + (is_whole ? 1 : 0));
+  }
+  host_free(host);
+}
+
 /* An empty sequence if it has room for one, and else an empty atom; never a byte beyond the room.
  */
 static void notify_writes_no_more_than_there_is_room_for(void** state) {
@@ -167,6 +185,7 @@ int main(void) {
       cmocka_unit_test(a_sequence_cut_short_is_played_as_far_as_it_is_whole),
       cmocka_unit_test(an_event_that_claims_too_much_is_the_end),
       cmocka_unit_test(what_is_no_sequence_is_not_read),
+      cmocka_unit_test(a_message_cut_short_is_not_heard),
       cmocka_unit_test(notify_writes_no_more_than_there_is_room_for),
       cmocka_unit_test(notify_stays_in_its_memory),
   };

@@ -185,6 +185,28 @@ static void it_keeps_its_scale_when_it_is_restarted(void** state) {
   sound_free(&sound);
 }
 
+/* Asked in the run in which the worker reads another, it tells of what is heard. */
+static void what_is_played_is_not_written_over(void** state) {
+  (void)state;
+  Host* const host = open_plain();
+  host_worker(host)->mode = HOST_WORK_IN_RUN;
+  scale_use(host, "19-equal.scl", NULL);
+  for (int i = 0; i < 4; ++i) {
+    const ScalePath heard = scale_path(i % 2 ? "meantone.scl" : "19-equal.scl");
+    const ScalePath wanted = scale_path(i % 2 ? "19-equal.scl" : "meantone.scl");
+    ScalePath told;
+    scale_set(host, SCALE_PARAMETER, wanted.text);
+    scale_get(host, SCALE_PARAMETER);
+    assert_true(host_run(host, BLOCK));
+    assert_true(scale_told(host, SCALE_PARAMETER, &told));
+    assert_string_equal(told.text, heard.text);
+    assert_true(host_run(host, BLOCK));
+    assert_true(scale_told(host, SCALE_PARAMETER, &told));
+    assert_string_equal(told.text, wanted.text);
+  }
+  host_free(host);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_key_is_as_the_files_say),
@@ -192,6 +214,7 @@ int main(void) {
       cmocka_unit_test(what_rings_goes_to_the_new_pitch),
       cmocka_unit_test(what_loses_its_key_falls_silent),
       cmocka_unit_test(without_files_it_sounds_as_ever),
+      cmocka_unit_test(what_is_played_is_not_written_over),
       cmocka_unit_test(it_keeps_its_scale_when_it_is_restarted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -42,12 +42,13 @@ static void use_file(Host* host, const ScalePath* path) {
   assert_true(host_run(host, BLOCK) && host_run(host, BLOCK));
 }
 
+/* By the end of its path; an empty one: none at all. */
 static void assert_told_scale(Host* host, const char* end) {
   ScalePath told;
   scale_get(host, SCALE_PARAMETER);
   assert_true(host_run(host, BLOCK));
   assert_true(scale_told(host, SCALE_PARAMETER, &told));
-  assert_true(strlen(told.text) >= strlen(end));
+  assert_true(strlen(told.text) >= strlen(end) && (*end || !*told.text));
   assert_string_equal(told.text + strlen(told.text) - strlen(end), end);
 }
 
@@ -61,6 +62,9 @@ static void a_session_brings_its_files_back(void** state) {
   Host* const after = open_session(&directory);
   scale_assert_heard(after, SCALE, MAPPING);
   assert_int_equal(host_worker(after)->n_works, 0);
+  char path[2 * SCALE_HOST_PATH];
+  (void)snprintf(path, sizeof(path), "%s/%s", directory.text, SCALE);
+  assert_told_scale(after, path);
   host_free(after);
   scale_remove_directory(&directory);
 }
