@@ -111,6 +111,11 @@ void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]) {
   }
 }
 
+/* Nothing sounds, and nothing is left of what a bow pulled aside. */
+static bool is_still(const Harp* harp) {
+  return harp->rest[0] == 0.0 && harp->rest[1] == 0.0 && harp_report(harp).n_strings == 0;
+}
+
 void harp_note_on(Harp* harp, uint32_t key, uint32_t velocity) {
   assert(key < HARP_KEYS);
   const double force = velocity / 127.0;
@@ -121,7 +126,7 @@ void harp_note_on(Harp* harp, uint32_t key, uint32_t velocity) {
       .amplitude = HARP_NOTE_PEAK * force * force,
   };
   harp->keys[key] = (HarpKey){.is_down = true};
-  harp->is_bowed |= harp->patch.exciter == EXCITER_BOW;
+  harp->is_bowed = harp->patch.exciter == EXCITER_BOW || (harp->is_bowed && !is_still(harp));
   harp_string_play(&harp->strings[key], &harp->patch, harp->bend_semitones, pluck, harp->n_gesture);
 }
 

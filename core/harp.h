@@ -55,7 +55,7 @@ typedef struct {
   void* memory;                 /**< Memory of all strings; owned */
   HarpString* awake[HARP_KEYS]; /**< The strings awake, while they are run */
   ChainPart parts[HARP_KEYS];   /**< Their chains, and where they are read */
-  bool is_bowed;                /**< Whether a note has been bowed since it was reset */
+  bool is_bowed;                /**< Whether a note has been bowed since all was still */
   double rest[2];               /**< What stands still on each side, once one has */
   HarpReading reading;          /**< How they were read last */
   float before[CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is differentiated */

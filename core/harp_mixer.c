@@ -10,7 +10,8 @@ static const double PI = 3.14159265358979323846;
 /* Below which what is heard of a bow is taken for standing still [Hz]. */
 static const double REST_HZ = 5.0;
 
-/* What is left of it that nobody hears once all strings sleep. */
+/* The same once nothing sounds [Hz]; and what is left of it that nobody hears. */
+static const double SILENT_REST_HZ = 100.0;
 static const double LEAST_REST = 1e-7;
 
 HarpPlaces harp_mixer_places(const Patch* patch) {
@@ -93,17 +94,18 @@ mix_down(Harp* harp, const HarpReading* reading, uint32_t n_frames, float* left,
 /*
   A bow pulls the string aside for as long as it is drawn, and none can hear that.  So from the
   first note that is bowed on, what stands still is taken out of the sum; before that it is not
-  touched.
+  touched.  Exact zeros mean that nothing sounds: then what is left of it is let go.
 */
-static void
-take_out_rest(Harp* harp, bool is_silent, uint32_t n_frames, float* left, float* right) {
+static void take_out_rest(Harp* harp, uint32_t n_frames, float* left, float* right) {
   const double share = -expm1(-2.0 * PI * REST_HZ / harp->rate_hz);
+  const double share_in_silence = -expm1(-2.0 * PI * SILENT_REST_HZ / harp->rate_hz);
   float* const sides[2] = {left, right};
   for (int s = 0; harp->is_bowed && s < 2; ++s) {
     double rest = harp->rest[s];
     for (uint32_t n = 0; n < n_frames; ++n) {
       const double x = (double)sides[s][n];
-      rest += share * (x - rest);
+      const bool is_silent = x == 0.0;
+      rest += (is_silent ? share_in_silence : share) * (x - rest);
       rest = is_silent && fabs(rest) < LEAST_REST ? 0.0 : rest;
       sides[s][n] = (float)(x - rest);
     }
@@ -174,7 +176,7 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
     }
   }
   mix_down(harp, &reading, n, left, right);
-  take_out_rest(harp, n_parts == 0, n, left, right);
+  take_out_rest(harp, n, left, right);
   return n;
 }
 
