@@ -115,6 +115,7 @@ static InstrumentReport report(const void* data) {
 static const InstrumentKind kind = {
     .n_ports = GUITAR_N_PORTS,
     .meters = GUITAR_PORT_SOUNDING,
+    .limiter = GUITAR_PORT_LIMITER,
     .event_uri = GUITAR_EVENT_URI,
     .new = new_player,
     .free = free_player,

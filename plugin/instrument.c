@@ -1,5 +1,6 @@
 #include "plugin/instrument.h"
 
+#include "core/limiter.h"
 #include "plugin/denormals.h"
 #include "plugin/events.h"
 #include "plugin/tuner.h"
@@ -37,6 +38,7 @@ typedef struct {
   bool is_fresh; /* Whether nothing has been played since activation: there is nothing to glide
                     from */
   bool is_muted;
+  Limiter limiter;
   float left[INSTRUMENT_FRAMES];
   float right[INSTRUMENT_FRAMES];
 } Instrument;
@@ -64,6 +66,8 @@ static void take_controls(Instrument* self, uint32_t n_frames) {
     self->kind->silence(self->player);
   }
   self->is_muted = is_muted;
+  limiter_turn(&self->limiter, controls.value[self->kind->limiter] >= 0.5f,
+               self->is_fresh ? 0 : n_glide);
   self->controls = controls;
   self->is_fresh = false;
 }
@@ -82,6 +86,7 @@ static void render(Instrument* self, uint32_t from, uint32_t to) {
   while (from < to) {
     const uint32_t n = to - from < INSTRUMENT_FRAMES ? to - from : INSTRUMENT_FRAMES;
     self->kind->run(self->player, n, self->left, self->right);
+    limiter_run(&self->limiter, n, self->left, self->right);
     if (left && left == right) {
       for (uint32_t i = 0; i < n; ++i) {
         self->left[i] = self->right[i] = 0.5f * (self->left[i] + self->right[i]);
@@ -192,6 +197,7 @@ instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* co
   }
   self->kind = kind;
   self->rate_hz = rate_hz;
+  limiter_init(&self->limiter, rate_hz);
   self->urids = map_urids(map, kind->event_uri);
   self->player = kind->new (rate_hz);
   self->tuner = kind->tuner ? tuner_new(map, features, kind->tuner) : NULL;
@@ -212,6 +218,7 @@ void instrument_connect_port(LV2_Handle handle, uint32_t index, void* data) {
 void instrument_activate(LV2_Handle handle) {
   Instrument* const self = handle;
   self->kind->reset(self->player);
+  limiter_init(&self->limiter, self->rate_hz);
   self->is_fresh = true;
 }
 

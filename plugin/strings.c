@@ -55,6 +55,7 @@ static const TunerNames tuner = {
 static const InstrumentKind kind = {
     .n_ports = STRINGS_N_PORTS,
     .meters = STRINGS_PORT_SOUNDING,
+    .limiter = STRINGS_PORT_LIMITER,
     .new = new_player,
     .free = free_player,
     .reset = reset,

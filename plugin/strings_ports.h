@@ -33,12 +33,13 @@
   X(TUNING, tuning, 17, 400.0f, 480.0f, 440.0f)                                                    \
   X(PARTIALS, partials, 21, 0.0f, 2.0f, 2.0f)                                                      \
   X(EXCITER, exciter, 22, 0.0f, 2.0f, 0.0f)                                                        \
-  X(SENSE, sense, 23, 0.0f, 2.0f, 0.0f)
+  X(SENSE, sense, 23, 0.0f, 2.0f, 0.0f)                                                            \
+  X(LIMITER, limiter, 24, 0.0f, 1.0f, 1.0f)
 
 #define STREAM_ENUM(name, symbol, index) STRINGS_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   STRINGS_PORT_##name = (index),
-enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 24 };
+enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 25 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

@@ -33,6 +33,7 @@ static Sound strum(Host* host, uint32_t preset, uint32_t velocity) {
   Sound sound = sound_new(N_FRAMES);
   assert_true(host_preset(host, host_preset_uri(host, preset)));
   host_set(host, "mode", 1.0f);
+  host_set(host, "limiter", 0.0f);
   strings_restart(host);
   for (uint32_t s = 0; s < 6; ++s) {
     const uint32_t note = (uint32_t)(host_get(host, strings[s]) + host_get(host, "capo"));

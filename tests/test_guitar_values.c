@@ -1,5 +1,6 @@
 /* What the ports say is what the guitar is, whatever a host writes into them. */
 #include "plugin/guitar_ports.h"
+#include "core/limiter.h"
 #include "tests/guitar_host.h"
 #include "tests/measure.h"
 #include "tests/random.h"
@@ -54,6 +55,10 @@ static Sound play_ourselves(const Host* host) {
   }
   duo_run(&duo, &sound, LAST, N_FRAMES);
   duo_free(&duo);
+  Limiter limiter;
+  limiter_init(&limiter, RATE);
+  limiter_turn(&limiter, host_get(host, "limiter") >= 0.5f, 0);
+  limiter_run(&limiter, (uint32_t)sound.n_frames, sound.left, sound.right);
   return sound;
 }
 

@@ -38,6 +38,9 @@ static const Pin pinned[] = {
     {"mass_count", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 131072.0f, 0.0f},
     {"headroom", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 1.0f},
     {"partials", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 2.0f},
+    {"exciter", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 0.0f},
+    {"sense", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 0.0f},
+    {"limiter", PIN_IN, PIN_VALUE, NULL, PIN_TOGGLED, 0.0f, 1.0f, 1.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };
@@ -50,11 +53,15 @@ static void the_turtle_says_what_is_pinned(void** state) {
 }
 
 /* The names of the values of an enumeration are what sessions and scripts are read by. */
-static void the_partials_have_their_names(void** state) {
-  static const char* const names[] = {"Lumped", "True", "Truest"};
+static void values_have_their_names(void** state) {
+  static const char* const partials[] = {"Lumped", "True", "Truest"};
+  static const char* const exciters[] = {"Pluck", "Strike", "Bow"};
+  static const char* const senses[] = {"Displacement", "Velocity", "Bridge Force"};
   (void)state;
   Host* const host = strings_open(48000.0, 64);
-  pins_check_names(host, STRINGS_PORT_PARTIALS, names, 3);
+  pins_check_names(host, STRINGS_PORT_PARTIALS, partials, 3);
+  pins_check_names(host, STRINGS_PORT_EXCITER, exciters, 3);
+  pins_check_names(host, STRINGS_PORT_SENSE, senses, 3);
   host_free(host);
 }
 
@@ -96,7 +103,7 @@ static void the_control_port_takes_midi(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_turtle_says_what_is_pinned),
-      cmocka_unit_test(the_partials_have_their_names),
+      cmocka_unit_test(values_have_their_names),
       cmocka_unit_test(the_turtle_says_what_the_code_says),
       cmocka_unit_test(what_it_names_is_described),
       cmocka_unit_test(it_is_an_instrument_that_needs_a_map_alone),
