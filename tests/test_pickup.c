@@ -84,12 +84,85 @@ static void any_place_is_within_the_string(void** state) {
   }
 }
 
+/* The tap for displacement, so much heavier that a difference has the fundamental's size again. */
+static void velocity_has_the_place_and_a_weight(void** state) {
+  (void)state;
+  double worst = 0.0;
+  Random random = random_start();
+  for (int trial = 0; trial < 10000; ++trial) {
+    const uint32_t n = 1 + random_below(&random, trial % 2 ? 5 : CHAIN_MAX_MASSES);
+    const double place = random_between(&random, 0.0, 1.0);
+    const double angle1 = random_log_between(&random, 1e-4, 3.1);
+    const ChainTap plain = pickup_tap(n, place);
+    const ChainTap tap = pickup_tap_sensing(SENSE_VELOCITY, n, place, angle1, trial % 3 == 0);
+    /* |1 − e^{−iω}|, of a difference at ω. */
+    const double gain = 0.24 / hypot(1.0 - cos(angle1), sin(angle1));
+    for (int k = 0; k < 2; ++k) {
+      assert_int_equal(tap.mass[k], plain.mass[k]);
+      const double wanted = gain * (double)plain.weight[k];
+      worst = fmax(worst, fabs((double)tap.weight[k] - wanted) / gain);
+    }
+  }
+  /* 1 − cos ω has lost half of its digits where ω is small. */
+  assert_within("weight, relative", worst, 1e-6);
+}
+
+/* A string of shape sin(πx) pulls with its slope there, π, at both ends. */
+static void force_is_the_slope_at_an_end(void** state) {
+  (void)state;
+  static double x[CHAIN_MAX_MASSES];
+  double worst = 0.0;
+  for (uint32_t n = 50; n <= CHAIN_MAX_MASSES; n += 77) {
+    for (uint32_t i = 0; i < n; ++i) {
+      x[i] = (i < n / 2 ? 1.0 : 3.0) * sin(3.14159265358979323846 * (i + 1.0) / (n + 1.0));
+    }
+    for (int step = 0; step <= 4; ++step) {
+      const double place = 0.25 * step;
+      const double near = read(pickup_tap_sensing(SENSE_FORCE, n, place, 0.1, false), x);
+      const double far = read(pickup_tap_sensing(SENSE_FORCE, n, place, 0.1, true), x);
+      worst = fmax(worst, fmax(fabs(near / 0.18 - 1.0), fabs(far / 0.54 - 1.0)));
+    }
+  }
+  /* sin(φ)/φ is φ²/6 short of 1, and φ at most π/51. */
+  assert_within("force, relative", worst, 7e-4);
+}
+
+static void displacement_is_read_as_ever(void** state) {
+  (void)state;
+  const ChainTap tap = pickup_tap_sensing(SENSE_DISPLACEMENT, 9, 0.33, 0.1, true);
+  const ChainTap plain = pickup_tap(9, 0.33);
+  assert_memory_equal(&tap, &plain, sizeof(tap));
+}
+
+/* Whatever the cuts, and from the sample before on. */
+static void a_difference_is_from_each_sample_to_the_next(void** state) {
+  (void)state;
+  enum { N = 100 };
+  float samples[N];
+  float before = 7.0f;
+  for (int i = 0; i < N; ++i) {
+    samples[i] = (float)(i * i);
+  }
+  pickup_differentiate(samples, 0, &before);
+  assert_true(before == 7.0f);
+  pickup_differentiate(samples, 33, &before);
+  pickup_differentiate(samples + 33, N - 33, &before);
+  assert_true(samples[0] == -7.0f && before == (float)((N - 1) * (N - 1)));
+  for (int i = 1; i < N; ++i) {
+    assert_true(samples[i] == (float)(2 * i - 1));
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(place_of_a_mass_reads_that_mass),
       cmocka_unit_test(walls_read_nothing),
       cmocka_unit_test(reading_is_straight_between_masses),
       cmocka_unit_test(any_place_is_within_the_string),
+      cmocka_unit_test(velocity_has_the_place_and_a_weight),
+      cmocka_unit_test(force_is_the_slope_at_an_end),
+      cmocka_unit_test(displacement_is_read_as_ever),
+      cmocka_unit_test(a_difference_is_from_each_sample_to_the_next),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
