@@ -26,7 +26,8 @@ struct Guitar {
   double palm;       /* The patch's */
   double weight;     /* What guitar_palm() adds */
   GuitarString strings[GUITAR_WIRES];
-  void* memory; /* Of all strings; owned */
+  GuitarString rests[GUITAR_WIRES]; /* What they did before they were plucked again */
+  void* memory;                     /* Of all strings; owned */
   GuitarMixer mixer;
 };
 
@@ -61,6 +62,10 @@ static GuitarString* string_of(Guitar* guitar, uint32_t string, int side) {
   return &guitar->strings[string + (side ? GUITAR_STRINGS : 0)];
 }
 
+static GuitarString* rest_of(Guitar* guitar, const GuitarString* string) {
+  return &guitar->rests[string - guitar->strings];
+}
+
 static bool has(const Guitar* guitar, uint32_t string) {
   return string < guitar->patch.n_strings;
 }
@@ -92,14 +97,16 @@ Guitar* guitar_new(double rate_hz) {
   const size_t size = chain_size(GUITAR_MAX_MASSES);
   guitar->rate_hz = rate_hz;
   guitar->n_gesture = wire_gesture_frames(rate_hz);
-  guitar->memory = aligned_alloc(CHAIN_ALIGNMENT, GUITAR_WIRES * size);
+  guitar->memory = aligned_alloc(CHAIN_ALIGNMENT, 2 * GUITAR_WIRES * size);
   if (!guitar->memory) {
     guitar_free(guitar);
     return NULL;
   }
-  memset(guitar->memory, 0, GUITAR_WIRES * size);
+  memset(guitar->memory, 0, 2 * GUITAR_WIRES * size);
   for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
-    guitar_string_init(&guitar->strings[w], rate_hz, w, (char*)guitar->memory + w * size);
+    char* const memory = (char*)guitar->memory + 2 * w * size;
+    guitar_string_init(&guitar->strings[w], rate_hz, w, memory);
+    guitar_string_init(&guitar->rests[w], rate_hz, w, memory + size);
   }
   guitar_set_patch(guitar, &usual, 0);
   return guitar;
@@ -119,6 +126,7 @@ double guitar_rate_hz(const Guitar* guitar) {
 void guitar_reset(Guitar* guitar) {
   for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
     guitar_string_reset(&guitar->strings[w]);
+    guitar_string_reset(&guitar->rests[w]);
   }
   guitar->weight = 0.0;
   set_palm(guitar);
@@ -155,6 +163,7 @@ void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
               isnan(pluck.hardness) ? clamp(patch->hardness + harder, 0.0, 1.0) : pluck.hardness,
           .amplitude = GUITAR_NOTE_PEAK * share * pluck.force,
       };
+      guitar_string_leave(s, rest_of(guitar, s), &guitar->patch);
       guitar_string_pluck(s, &guitar->patch, own);
     }
   }
@@ -257,5 +266,6 @@ GuitarReport guitar_report(const Guitar* guitar) {
 }
 
 void guitar_run(Guitar* guitar, uint32_t n_frames, float* left, float* right) {
-  guitar_mixer_run(&guitar->mixer, guitar->strings, &guitar->patch, n_frames, left, right);
+  guitar_mixer_run(&guitar->mixer, guitar->strings, guitar->rests, &guitar->patch, n_frames, left,
+                   right);
 }

@@ -69,7 +69,8 @@ void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frame
 /* The hands.  `string` counts from 0, the highest; one that the patch does not have is ignored.
    Times are in seconds, and no shorter than a gesture. */
 
-/** Pluck a string as it is fretted; whatever damped it lifts. */
+/** Pluck a string as it is fretted; whatever damped it lifts.  The plectrum stops what it was
+ * doing, in a few hundredths of a second. */
 void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck);
 
 /** Stop a string at a fret (0: none but the capo), its motion kept, in one gesture. */

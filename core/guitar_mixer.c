@@ -54,14 +54,16 @@ static void add(Ramp* gain, const float* from, uint32_t n_frames, float* to) {
 
 static void run_string(GuitarMixer* mixer,
                        GuitarString* string,
+                       GuitarString* rest,
                        Ramp pans[2],
                        const GuitarPatch* patch,
                        uint32_t n_frames) {
-  const bool is_heard = string->wire.is_awake;
+  const bool is_heard = string->wire.is_awake || rest->wire.is_awake;
   if (is_heard) {
     memset(mixer->own, 0, n_frames * sizeof(float));
   }
   guitar_string_run(string, patch, &mixer->now, n_frames, mixer->own);
+  guitar_string_run(rest, patch, &mixer->now, n_frames, mixer->own);
   for (int side = 0; side < 2; ++side) {
     if (is_heard) {
       add(&pans[side], mixer->own, n_frames, mixer->sides[side]);
@@ -74,6 +76,7 @@ static void run_string(GuitarMixer* mixer,
 /* As many as can be mixed at a time. */
 static void run_some(GuitarMixer* mixer,
                      GuitarString* strings,
+                     GuitarString* rests,
                      const GuitarPatch* patch,
                      uint32_t n_frames,
                      float* left,
@@ -82,7 +85,7 @@ static void run_some(GuitarMixer* mixer,
   memset(mixer->sides[1], 0, n_frames * sizeof(float));
   ramp_gains(mixer, n_frames);
   for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
-    run_string(mixer, &strings[w], mixer->pans[w], patch, n_frames);
+    run_string(mixer, &strings[w], &rests[w], mixer->pans[w], patch, n_frames);
   }
   for (uint32_t n = 0; n < n_frames; ++n) {
     const float level = ramp_next(&mixer->level);
@@ -93,6 +96,7 @@ static void run_some(GuitarMixer* mixer,
 
 void guitar_mixer_run(GuitarMixer* mixer,
                       GuitarString* strings,
+                      GuitarString* rests,
                       const GuitarPatch* patch,
                       uint32_t n_frames,
                       float* left,
@@ -100,7 +104,7 @@ void guitar_mixer_run(GuitarMixer* mixer,
   for (uint32_t done = 0; done < n_frames;) {
     const uint32_t rest = n_frames - done;
     const uint32_t n = rest < GUITAR_MIX_FRAMES ? rest : GUITAR_MIX_FRAMES;
-    run_some(mixer, strings, patch, n, left + done, right + done);
+    run_some(mixer, strings, rests, patch, n, left + done, right + done);
     done += n;
   }
 }

@@ -29,9 +29,11 @@ typedef struct {
 /** Go to what the patch says in `n_frames`. */
 void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_frames);
 
-/** Run all GUITAR_WIRES strings for `n_frames`, and write what is heard to `left` and `right`. */
+/** Run all GUITAR_WIRES strings, and what is left of each, for `n_frames`, and write what is heard
+ * to `left` and `right`. */
 void guitar_mixer_run(GuitarMixer* mixer,
                       GuitarString* strings,
+                      GuitarString* rests,
                       const GuitarPatch* patch,
                       uint32_t n_frames,
                       float* left,

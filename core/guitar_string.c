@@ -5,6 +5,9 @@
 
 #include <math.h>
 
+/* Time in which a choked string has died away far enough for another to take its place [s]. */
+static const double LEFT_S = 5.0 * WIRE_CHOKE_S;
+
 static uint32_t least(uint32_t a, uint32_t b) {
   return a < b ? a : b;
 }
@@ -173,6 +176,27 @@ void guitar_string_vibrato(GuitarString* string,
   guitar_line_to(&string->motion.depth, depth, string->n_gesture);
   string->motion.rate = rate;
   start(string, patch);
+}
+
+void guitar_string_leave(GuitarString* string, GuitarString* rest, const GuitarPatch* patch) {
+  const bool is_taken = rest->wire.is_awake && rest->wire.n_choked < LEFT_S * rest->wire.rate_hz;
+  if (!string->wire.is_awake || is_taken) {
+    return;
+  }
+  Wire idle = rest->wire;
+  GuitarLine* const fret = &string->motion.fret;
+  wire_sleep(&idle);
+  halt(string);
+  *rest = *string;
+  string->wire = idle;
+  guitar_line_to(&rest->motion.fret, fret->value, 0);
+  rest->n_touched = 0;
+  ramp_init(&rest->touch, 0.0f);
+  rest->damper = GUITAR_RINGING;
+  guitar_string_damp(rest, patch, GUITAR_CHOKED, 0);
+  if (fret->n_left <= string->n_gesture) {
+    guitar_line_to(fret, fret->goal, 0);
+  }
 }
 
 void guitar_string_pluck(GuitarString* string, const GuitarPatch* patch, Pluck pluck) {

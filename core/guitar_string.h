@@ -85,6 +85,15 @@ void guitar_string_vibrato(GuitarString* string,
                            double depth,
                            double rate);
 
+/**
+   Before it is plucked again: leave its motion to `rest`, where a plectrum that stops a string
+   chokes it, and be at rest, at the fret that it was going to in a gesture.  A string that is
+   asleep stays as it is, and so does one whose last rest has not died away to a hundredth yet.
+
+   @param rest  Of the same kind, used for nothing else
+*/
+void guitar_string_leave(GuitarString* string, GuitarString* rest, const GuitarPatch* patch);
+
 /** Pluck it, whatever damps it; `pluck.place` is a fraction of the sounding length. */
 void guitar_string_pluck(GuitarString* string, const GuitarPatch* patch, Pluck pluck);
 
