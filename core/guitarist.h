@@ -21,7 +21,7 @@
 
    Legato.  A soft note on a string that sounds and whose key is down is hammered on; with one
    channel that is the string that was played last, if the note comes alone, more than 50 ms after
-   that one and within five frets of it.  When its key goes up and that of the note before is still
+   that one and within two frets of it.  When its key goes up and that of the note before is still
    down, the finger pulls off to it, half as strong.
 
    Thread: guitarist_new() and guitarist_free() anywhere but the audio thread; all else is real-time

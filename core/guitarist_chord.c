@@ -5,8 +5,9 @@
 /* A note that follows another this soon was meant to be struck with it. */
 static const double LEGATO_S = 0.05;
 static const double JOIN_S = 0.03;
-/* How far a finger reaches from another on the same string, in frets. */
-static const double LEGATO_FRETS = 5.0;
+/* How far a note may be from another for a finger to hammer it, in frets: chords that are played
+ * note by note, and held, go in wider steps. */
+static const double LEGATO_FRETS = 2.0;
 
 static const double MOST_STRUM_S = 1.0;
 static const double LOWEST_FRET = -48.0;

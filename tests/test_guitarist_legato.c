@@ -96,10 +96,10 @@ static void other_soft_notes_are_plucked(void** state) {
   from = 0;
   on(player, 0, 60, SOFT);
   player_run(player, 4800);
-  on(player, 0, 65, SOFT); /* Five frets */
+  on(player, 0, 62, SOFT); /* Two frets */
   player_run(player, 4800);
   assert_done(player, &from, "f1 p1 h1");
-  on(player, 0, 71, SOFT); /* Six */
+  on(player, 0, 65, SOFT); /* Three */
   player_run(player, 4800);
   assert_done(player, &from, "f0 p0");
   on(player, 0, 63, SOFT); /* Below the nut, and no string in reach of the first finger */
@@ -215,6 +215,21 @@ static void without_legato_nothing_pulls_off(void** state) {
   player_free(player);
 }
 
+/* A chord that is played softly, key by key, and held. */
+static void an_arpeggio_rings_on(void** state) {
+  (void)state;
+  static const uint32_t keys[] = {48, 52, 55, 60, 64, 67};
+  const Player player = player_how((GuitaristHow){.legato = LEGATO});
+  for (size_t i = 0; i < sizeof(keys) / sizeof(keys[0]); ++i) {
+    on(player, 0, keys[i], SOFT);
+    player_run(player, 9600);
+  }
+  assert_int_equal(player_count(player.guitar, GUITAR_HAMMER), 0);
+  assert_int_equal(player_count(player.guitar, GUITAR_PLUCK), 6);
+  assert_int_equal(player_count(player.guitar, GUITAR_DAMP), 0);
+  player_free(player);
+}
+
 /* Neither below the nut nor above the last fret is there a place to hammer. */
 static void there_is_no_hammering_off_the_neck(void** state) {
   (void)state;
@@ -236,12 +251,14 @@ static void the_hand_goes_with_the_finger_that_hammers(void** state) {
   uint32_t from = 0;
   on(player, 0, 60, HARD);
   player_run(player, 4800);
-  on(player, 0, 65, SOFT);
-  player_run(player, 4800);
+  for (uint32_t key = 62; key <= 66; key += 2) {
+    on(player, 0, key, SOFT);
+    player_run(player, 4800);
+  }
   guitarist_all_notes_off(player.guitarist, 0);
-  on(player, 0, 65, HARD); /* Nearer than the first fret of the next string now */
+  on(player, 0, 66, HARD); /* Nearer than the second fret of the next string now */
   player_run(player, 4800);
-  assert_done(player, &from, "f1 p1 h1 d1 f1 p1");
+  assert_done(player, &from, "f1 p1 h1 h1 h1 d1 f1 p1");
   player_free(player);
 }
 
@@ -289,6 +306,7 @@ int main(void) {
       cmocka_unit_test(fingers_lift_in_any_order),
       cmocka_unit_test(many_fingers_wait),
       cmocka_unit_test(without_legato_nothing_pulls_off),
+      cmocka_unit_test(an_arpeggio_rings_on),
       cmocka_unit_test(there_is_no_hammering_off_the_neck),
       cmocka_unit_test(the_hand_goes_with_the_finger_that_hammers),
       cmocka_unit_test(a_finger_waits_once),
