@@ -97,10 +97,13 @@ mix_down(Harp* harp, const HarpReading* reading, uint32_t n_frames, float* left,
   touched.  Exact zeros mean that nothing sounds: then what is left of it is let go.
 */
 static void take_out_rest(Harp* harp, uint32_t n_frames, float* left, float* right) {
+  if (!harp->is_bowed) {
+    return;
+  }
   const double share = -expm1(-2.0 * PI * REST_HZ / harp->rate_hz);
   const double share_in_silence = -expm1(-2.0 * PI * SILENT_REST_HZ / harp->rate_hz);
   float* const sides[2] = {left, right};
-  for (int s = 0; harp->is_bowed && s < 2; ++s) {
+  for (int s = 0; s < 2; ++s) {
     double rest = harp->rest[s];
     for (uint32_t n = 0; n < n_frames; ++n) {
       const double x = (double)sides[s][n];
