@@ -25,11 +25,11 @@ static double gain_of(double followed) {
 
 /* Whether all is below the knee. */
 static bool is_low(const float* samples, uint32_t n_frames) {
-  float most = 0.0f;
+  unsigned n_above = 0;
   for (uint32_t n = 0; n < n_frames; ++n) {
-    most = fmaxf(most, fabsf(samples[n]));
+    n_above |= fabsf(samples[n]) > (float)LIMITER_KNEE;
   }
-  return (double)most <= LIMITER_KNEE;
+  return n_above == 0;
 }
 
 /* What is below the knee need not be followed. */
