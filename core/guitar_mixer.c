@@ -27,9 +27,7 @@ static void ramp_gains(GuitarMixer* mixer, uint32_t n_frames) {
   for (int p = 0; p < GUITAR_PICKUPS; ++p) {
     Ramp* const ramp = &mixer->gains[p];
     mixer->now.is_read[p] = ramp->value != 0.0f || ramp->n_left > 0;
-    for (uint32_t n = 0; n < n_frames; ++n) {
-      mixer->now.gain[p][n] = ramp_next(ramp);
-    }
+    ramp_fill(ramp, n_frames, mixer->now.gain[p]);
   }
 }
 
@@ -87,10 +85,10 @@ static void run_some(GuitarMixer* mixer,
   for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
     run_string(mixer, &strings[w], &rests[w], mixer->pans[w], patch, n_frames);
   }
+  ramp_fill(&mixer->level, n_frames, mixer->own);
   for (uint32_t n = 0; n < n_frames; ++n) {
-    const float level = ramp_next(&mixer->level);
-    left[n] = level * mixer->sides[0][n];
-    right[n] = level * mixer->sides[1][n];
+    left[n] = mixer->own[n] * mixer->sides[0][n];
+    right[n] = mixer->own[n] * mixer->sides[1][n];
   }
 }
 

@@ -61,20 +61,26 @@ static void step(Take* take, uint32_t n_frames) {
   chain_run_all(&take->part, 1, n_frames, n_taps, out);
 }
 
-static void add(const Take* take,
-                const float* fade,
-                const GuitarGains* gains,
-                uint32_t from,
-                uint32_t n_frames,
-                float* out) {
+/* From the old places to the new. */
+static void cross(Take* take, Ramp* fade, uint32_t n_frames) {
+  for (uint32_t n = 0; n < n_frames; ++n) {
+    const float share = ramp_next(fade);
+    for (uint32_t t = 0; t < take->n_read; ++t) {
+      const float old = take->samples[t + take->n_read][n];
+      take->samples[t][n] = old + share * (take->samples[t][n] - old);
+    }
+  }
+}
+
+static void
+add(const Take* take, const GuitarGains* gains, uint32_t from, uint32_t n_frames, float* out) {
   uint32_t t = 0;
   for (int p = 0; p < GUITAR_PICKUPS; ++p) {
     if (gains->is_read[p]) {
       const float* const gain = gains->gain[p] + from;
-      const float* const now = take->samples[t];
-      const float* const old = take->is_fading ? take->samples[t + take->n_read] : now;
+      const float* const samples = take->samples[t];
       for (uint32_t n = 0; n < n_frames; ++n) {
-        out[n] += gain[n] * (old[n] + fade[n] * (now[n] - old[n]));
+        out[n] += gain[n] * samples[n];
       }
       ++t;
     }
@@ -87,7 +93,6 @@ void guitar_reading_run(GuitarReading* reading,
                         uint32_t from,
                         uint32_t n_frames,
                         float* out) {
-  float fade[GUITAR_MIX_FRAMES];
   Take take;
   take.n_read = 0;
   take.is_fading = reading->fade.n_left > 0;
@@ -95,8 +100,8 @@ void guitar_reading_run(GuitarReading* reading,
   memset(take.part.taps, 0, sizeof(take.part.taps));
   place_taps(&take, reading, gains);
   step(&take, n_frames);
-  for (uint32_t n = 0; n < n_frames; ++n) {
-    fade[n] = ramp_next(&reading->fade);
+  if (take.is_fading) {
+    cross(&take, &reading->fade, n_frames);
   }
-  add(&take, fade, gains, from, n_frames, out);
+  add(&take, gains, from, n_frames, out);
 }

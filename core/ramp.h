@@ -30,4 +30,7 @@ static inline float ramp_next(Ramp* ramp) {
   return ramp->value;
 }
 
+/** Its next `n_frames` values. */
+void ramp_fill(Ramp* ramp, uint32_t n_frames, float* out);
+
 #endif

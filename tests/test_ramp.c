@@ -75,12 +75,32 @@ static void ramp_overtaken_goes_on_from_where_it_is(void** state) {
   assert_true(ramp_next(&ramp) == 0.25f);
 }
 
+/* In pieces, past its end. */
+static void filled_frames_are_those_one_by_one(void** state) {
+  (void)state;
+  float filled[40];
+  Ramp a;
+  Ramp b;
+  ramp_init(&a, 0.25f);
+  ramp_init(&b, 0.25f);
+  ramp_to(&a, -3.0f, 23);
+  ramp_to(&b, -3.0f, 23);
+  ramp_fill(&a, 7, filled);
+  ramp_fill(&a, 0, filled + 7);
+  ramp_fill(&a, 33, filled + 7);
+  for (int n = 0; n < 40; ++n) {
+    assert_true(filled[n] == ramp_next(&b));
+  }
+  assert_true(a.value == -3.0f && a.n_left == 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(zero_is_a_ramp_that_stands_still),
       cmocka_unit_test(ramp_is_straight_and_ends_exactly),
       cmocka_unit_test(no_frames_is_at_once),
       cmocka_unit_test(ramp_overtaken_goes_on_from_where_it_is),
+      cmocka_unit_test(filled_frames_are_those_one_by_one),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
