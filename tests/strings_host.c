@@ -42,6 +42,18 @@ bool sound_is_same(const Sound* a, const Sound* b) {
          !memcmp(a->right, b->right, size);
 }
 
+double sound_distance(const Sound* a, const Sound* b) {
+  double ab = 0.0;
+  double aa = 0.0;
+  double bb = 0.0;
+  for (size_t i = 0; i < a->n_frames; ++i) {
+    ab += (double)a->left[i] * (double)b->left[i];
+    aa += (double)a->left[i] * (double)a->left[i];
+    bb += (double)b->left[i] * (double)b->left[i];
+  }
+  return 1.0 - ab / sqrt(aa * bb);
+}
+
 Host* strings_open(double rate_hz, uint32_t max_block) {
   char error[256] = "";
   Host* const host = host_new(STRINGS_URI, rate_hz, max_block, error, sizeof(error));

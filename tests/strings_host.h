@@ -29,6 +29,10 @@ void sound_free(Sound* sound);
 /** Whether two sounds are the same, bit by bit, on both sides. */
 bool sound_is_same(const Sound* a, const Sound* b);
 
+/** How unlike the left sides of two sounds of one length are, at any loudness: 1 − their
+ * correlation, so 2 for opposites. */
+double sound_distance(const Sound* a, const Sound* b);
+
 /** The plugin at its defaults, for host_free(). */
 Host* strings_open(double rate_hz, uint32_t max_block);
 

@@ -67,19 +67,6 @@ static void presets_are_about_as_loud(void** state) {
   host_free(host);
 }
 
-/* How alike two sounds are at any loudness: 1 − the correlation, or 2 for opposites. */
-static double distance(const Sound* a, const Sound* b) {
-  double ab = 0.0;
-  double aa = 0.0;
-  double bb = 0.0;
-  for (size_t i = 0; i < N_FRAMES; ++i) {
-    ab += (double)a->left[i] * (double)b->left[i];
-    aa += (double)a->left[i] * (double)a->left[i];
-    bb += (double)b->left[i] * (double)b->left[i];
-  }
-  return 1.0 - ab / sqrt(aa * bb);
-}
-
 static void no_two_presets_sound_alike(void** state) {
   (void)state;
   Host* const host = open_host();
@@ -90,7 +77,7 @@ static void no_two_presets_sound_alike(void** state) {
   for (uint32_t i = 0; i < n; ++i) {
     sounds[i] = strum(host, i, 100);
     for (uint32_t k = 0; k < i; ++k) {
-      least = fmin(least, distance(&sounds[i], &sounds[k]));
+      least = fmin(least, sound_distance(&sounds[i], &sounds[k]));
     }
   }
   print_message("the nearest two correlate to %g\n", 1.0 - least);

@@ -155,19 +155,6 @@ static void presets_are_about_as_loud(void** state) {
   assert_within("dB from the middle", 0.5 * (loudest - quietest), 3.0);
 }
 
-/* How alike two sounds are at any loudness: 1 − the correlation, or 2 for opposites. */
-static double distance(const Sound* a, const Sound* b) {
-  double ab = 0.0;
-  double aa = 0.0;
-  double bb = 0.0;
-  for (size_t i = 0; i < N_FRAMES; ++i) {
-    ab += (double)a->left[i] * (double)b->left[i];
-    aa += (double)a->left[i] * (double)a->left[i];
-    bb += (double)b->left[i] * (double)b->left[i];
-  }
-  return 1.0 - ab / sqrt(aa * bb);
-}
-
 static void no_two_presets_sound_alike(void** state) {
   (void)state;
   Host* const host = open_host();
@@ -179,7 +166,7 @@ static void no_two_presets_sound_alike(void** state) {
     assert_true(host_preset(host, host_preset_uri(host, i)));
     sounds[i] = play(host, 52, 100);
     for (uint32_t k = 0; k < i; ++k) {
-      least = fmin(least, distance(&sounds[i], &sounds[k]));
+      least = fmin(least, sound_distance(&sounds[i], &sounds[k]));
     }
   }
   print_message("the nearest two correlate to %g\n", 1.0 - least);
