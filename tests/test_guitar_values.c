@@ -1,6 +1,6 @@
 /* What the ports say is what the guitar is, whatever a host writes into them. */
-#include "plugin/guitar_ports.h"
 #include "core/limiter.h"
+#include "plugin/guitar_ports.h"
 #include "tests/guitar_host.h"
 #include "tests/measure.h"
 #include "tests/random.h"
