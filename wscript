@@ -4,7 +4,7 @@ Sources are found by where they lie, so that a new one needs no line here:
 
     core/*.c           a static library, in the plugin and in everything else
     core/*_avx2.c      the part of it for processors with AVX2 and FMA, which is chosen when it runs
-    plugin/*.c         the plugin, hooke.lv2/hooke.so
+    plugin/*.c         the plugin, hooke.lv2/hooke.so, and a static library for the tests of its parts
     ttl/, presets/     the plugin's descriptions and presets, beside it
     tools/main.c       the program `hooke`; the other tools/*.c are a library which the tests share
     tests/test_*.c     a test program each; the other tests/*.c are linked into all of them
@@ -182,6 +182,7 @@ def build_bundle(bld):
     if sources:
         bld.shlib(source=sources, target='hooke.lv2/hooke', name='hooke_plugin', env=env, install_path=bundle,
                   use='hooke_core LV2 M', linkflags=bld.env.PLUGIN_LINKFLAGS)
+    library(bld, 'hooke_parts', sources, use='hooke_core LV2 M')
     for node in bld.path.ant_glob(['ttl/*.ttl', 'presets/*.ttl']):
         bld(features='subst', is_copy=True, source=node, target='hooke.lv2/' + node.name, install_path=bundle)
     for node in bld.path.ant_glob('ttl/*.ttl.in'):
@@ -198,7 +199,7 @@ def build_tools(bld):
 
 
 def build_tests(bld):
-    use = 'hooke_tools hooke_analysis hooke_core CMOCKA LILV SNDFILE SMF LAPACK LV2 M DL PTHREAD'
+    use = 'hooke_parts hooke_tools hooke_analysis hooke_core CMOCKA LILV SNDFILE SMF LAPACK LV2 M DL PTHREAD'
     helpers = bld.path.ant_glob('tests/*.c', excl=['tests/test_*.c', 'tests/plant_*.c'])
     library(bld, 'hooke_helpers', helpers, use=use)
     env = bld.env.derive()

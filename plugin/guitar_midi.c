@@ -114,6 +114,9 @@ void guitar_midi_play(GuitarMidi* midi, const uint8_t* bytes, uint32_t n_bytes, 
   case MIDI_BEND:
     set_wheel(midi, message.channel, message.bend);
     break;
+  case MIDI_KEY_PRESSURE:
+  case MIDI_PROGRAM:
+  case MIDI_CHANNEL_PRESSURE:
   case MIDI_OTHER:
     break;
   }

@@ -13,17 +13,29 @@ typedef enum {
   MIDI_OTHER, /**< Unknown, cut short or out of range: to be ignored */
   MIDI_NOTE_OFF,
   MIDI_NOTE_ON,
+  MIDI_KEY_PRESSURE, /**< Of one key */
   MIDI_CONTROLLER,
+  MIDI_PROGRAM,
+  MIDI_CHANNEL_PRESSURE, /**< Of all keys of a channel */
   MIDI_BEND,
 } MidiKind;
 
 /** Controllers. */
 enum {
+  MIDI_BANK_UPPER = 0, /**< Bank that programs are chosen from, upper seven bits */
   MIDI_VIBRATO = 1,
-  MIDI_DATA_UPPER = 6,  /**< Data entry, upper seven bits */
-  MIDI_DATA_LOWER = 38, /**< And lower ones */
+  MIDI_BREATH = 2,
+  MIDI_DATA_UPPER = 6, /**< Data entry, upper seven bits */
+  MIDI_VOLUME = 7,
+  MIDI_EXPRESSION = 11,
+  MIDI_BANK_LOWER = 32, /**< Lower seven bits of the bank */
+  MIDI_DATA_LOWER = 38, /**< And of data entry */
   MIDI_PEDAL = 64,
+  MIDI_SOSTENUTO = 66,
   MIDI_SOFT_PEDAL = 67,
+  MIDI_BRIGHTNESS = 74,
+  MIDI_DATA_INCREMENT = 96,
+  MIDI_DATA_DECREMENT = 97,
   MIDI_UNREGISTERED_LOWER = 98, /**< Which parameter data entry is for: a maker's own */
   MIDI_UNREGISTERED_UPPER = 99,
   MIDI_PARAMETER_LOWER = 100, /**< Or a registered one */
@@ -40,12 +52,14 @@ enum { MIDI_DOWN = 64 };
 typedef struct {
   MidiKind kind;
   uint32_t channel; /**< From 0 */
-  uint32_t number;  /**< Of the key, or of the controller, 0 to 127 */
-  uint32_t value;   /**< Of the key's velocity, 1 to 127 if it goes down, or of the controller */
-  double bend;      /**< Of the wheel, −1 to 8191/8192 */
+  uint32_t number;  /**< Of the key, the controller or the program, 0 to 127 */
+  uint32_t value;   /**< Of the key's velocity, 1 to 127 if it goes down, of a pressure, or of the
+                       controller, 0 to 127 */
+  double bend;      /**< Of the wheel, −1 to 8191/8192; 0 of other kinds */
 } MidiMessage;
 
-/** Read one complete message of `n_bytes`.  Note on of velocity nought is note off. */
+/** Read one complete message of `n_bytes`, neither more nor fewer than its kind has.  Note on of
+ * velocity nought is note off. */
 MidiMessage midi_read(const uint8_t* bytes, uint32_t n_bytes);
 
 #endif

@@ -34,6 +34,9 @@ void strings_midi_play(Harp* harp, const uint8_t* bytes, uint32_t n_bytes, bool 
   case MIDI_BEND:
     harp_bend(harp, BEND_SEMITONES * message.bend);
     break;
+  case MIDI_KEY_PRESSURE:
+  case MIDI_PROGRAM:
+  case MIDI_CHANNEL_PRESSURE:
   case MIDI_OTHER:
     break;
   }
