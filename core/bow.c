@@ -2,6 +2,7 @@
 
 #include "core/contact.h"
 
+#include <float.h>
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
@@ -24,6 +25,9 @@ static const double LEAST_PLACE = 0.03;
  * and for all. */
 static const double LIGHTEST = 0.65;
 static const double HEAVIEST = 1.6;
+
+/* The most that it can swell to. */
+static const double STRONGEST = 2.0;
 
 /* What the hair and the string settle in a step. */
 typedef struct {
@@ -83,15 +87,54 @@ static void settle(Bow* bow, const Meeting* m) {
   }
 }
 
-static void follow(Bow* bow) {
-  bow->drawn = fmin(1.0, bow->drawn + bow->draw);
-  bow->pressed =
-      bow->is_lifted ? fmax(0.0, bow->pressed - bow->lift) : fmin(1.0, bow->pressed + bow->press);
-  bow->is_active = !(bow->is_lifted && bow->pressed <= 0.0);
+static BowGlide still(double value) {
+  return (BowGlide){.now = value, .goal = value};
 }
 
-static double share_of_step(double time_s, double rate_hz) {
-  return 1.0 / fmax(1.0, time_s * rate_hz);
+static void glide_to(BowGlide* glide, double goal, uint32_t n_frames) {
+  if (n_frames == 0) {
+    *glide = still(goal);
+    return;
+  }
+  glide->goal = goal;
+  glide->change = (goal - glide->now) / n_frames;
+  glide->n_left = n_frames;
+}
+
+static void glide_on(BowGlide* glide) {
+  if (glide->n_left > 0) {
+    glide->now = --glide->n_left > 0 ? glide->now + glide->change : glide->goal;
+  }
+}
+
+static void follow(Bow* bow) {
+  glide_on(&bow->strength);
+  glide_on(&bow->drawn);
+  glide_on(&bow->paced);
+  glide_on(&bow->pressed);
+  bow->hair = bow->strength.now * bow->drawn.now;
+  bow->is_active = !bow->is_lifted || bow->pressed.n_left > 0;
+}
+
+/* What comes next is seen from where the bow will be. */
+static void move_on(Bow* bow, const Chain* chain) {
+  if (bow->place.n_left > 0) {
+    glide_on(&bow->place);
+    bow_look(bow, chain);
+  }
+}
+
+/* What it does is what it did, for a strength of 1, and the roll keeps its energy. */
+static void take_over(Bow* bow, double spring) {
+  bow->rolled *= sqrt(bow->spring / spring);
+  bow->drawn.now *= bow->strength.now;
+  bow->paced.now *= bow->strength.now;
+  bow->pressed.now *= bow->strength.now;
+  bow->is_lifted = false;
+}
+
+static uint32_t frames_of(double time_s, double rate_hz) {
+  return (uint32_t)fmax(1.0, round(time_s * rate_hz));
 }
 
 void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, double rate_hz) {
@@ -100,25 +143,37 @@ void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, doubl
   const double speed = 8.0 * beta * (1.0 - beta) * stroke.amplitude * angle1 / (2.0 * PI);
   /* Schelleng's most: the corner brings 2 √k1 b/β, and friction falls by so much at its slip. */
   const double heavy = 2.0 * (1.0 + HALF_WAY) / (beta * (STATIC - DYNAMIC));
-  *bow = (Bow){
-      .place = place,
-      .speed = speed,
-      .force = heavy * LIGHTEST * pow(HEAVIEST / LIGHTEST, stroke.pressure),
-      .draw = share_of_step(stroke.attack_s, rate_hz),
-      .press = share_of_step(0.5 * stroke.attack_s, rate_hz),
-      .lift = share_of_step(stroke.release_s, rate_hz),
-      .spring = ROLL * angle1 / (2.0 * PI * ROLL_TIME),
-      .is_active = true,
-  };
+  const double force = heavy * LIGHTEST * pow(HEAVIEST / LIGHTEST, stroke.pressure) * speed;
+  const double spring = ROLL * angle1 / (2.0 * PI * ROLL_TIME);
+  const uint32_t n_attack = frames_of(stroke.attack_s, rate_hz);
+  if (bow->is_active) {
+    take_over(bow, spring);
+  } else {
+    *bow = (Bow){.place = still(place), .paced = still(speed), .is_active = true};
+  }
+  bow->strength = still(1.0);
+  glide_to(&bow->place, place, n_attack);
+  glide_to(&bow->drawn, speed, n_attack);
+  glide_to(&bow->paced, speed, n_attack);
+  glide_to(&bow->pressed, force, frames_of(0.5 * stroke.attack_s, rate_hz));
+  bow->n_lift = frames_of(stroke.release_s, rate_hz);
+  bow->spring = spring;
   bow_look(bow, chain);
 }
 
+void bow_swell(Bow* bow, double strength, uint32_t n_frames) {
+  glide_to(&bow->strength, fmin(fmax(strength, 0.0), STRONGEST), n_frames);
+}
+
 void bow_lift(Bow* bow) {
-  bow->is_lifted = true;
+  if (!bow->is_lifted) {
+    bow->is_lifted = true;
+    glide_to(&bow->pressed, 0.0, bow->n_lift);
+  }
 }
 
 void bow_look(Bow* bow, const Chain* chain) {
-  const Contact contact = contact_at(chain, bow->place);
+  const Contact contact = contact_at(chain, bow->place.now);
   bow->before = contact_velocity(chain, &contact);
 }
 
@@ -126,22 +181,23 @@ bool bow_act(Bow* bow, Chain* chain) {
   if (!bow->is_active) {
     return false;
   }
-  const Contact contact = contact_at(chain, bow->place);
+  const Contact contact = contact_at(chain, bow->place.now);
   const double impedance = sqrt(chain->now.k1);
+  const double beta = fmin(bow->place.now, 1.0 - bow->place.now);
   const double after = contact_velocity(chain, &contact);
   follow(bow);
-  bow->hair = bow->drawn * bow->speed;
   const double spring = impedance * bow->spring;
   const double roll = 1.0 / (impedance * ROLL + 0.5 * spring);
   const Meeting m = {
       .free = 0.5 * (after + bow->before) - bow->hair - roll * spring * bow->rolled,
       .yield = 0.5 * contact.square + roll,
-      .force = bow->pressed * bow->force * impedance * bow->speed,
-      .v0 = HALF_WAY * bow->speed / fmin(bow->place, 1.0 - bow->place),
+      .force = bow->strength.now * bow->pressed.now * impedance,
+      .v0 = fmax(DBL_MIN, HALF_WAY * bow->strength.now * bow->paced.now / beta),
   };
   settle(bow, &m);
   bow->rolled += roll * (bow->friction - spring * bow->rolled);
   contact_push(chain, &contact, bow->friction);
   bow->before = after + contact.square * bow->friction;
+  move_on(bow, chain);
   return bow->is_active;
 }

@@ -48,29 +48,48 @@ typedef struct {
 /** What the hair does to the string just now. */
 typedef enum { BOW_STICKS, BOW_SLIPS_BACK, BOW_SLIPS_AHEAD } BowGrip;
 
+/** A value of the bow that goes to its goal in a straight line. */
+typedef struct {
+  double now;
+  double goal;
+  double change;   /**< Per step */
+  uint32_t n_left; /**< Steps until it is there */
+} BowGlide;
+
 /** A bow at work; zero is none. */
 typedef struct {
-  double place;
-  double speed;    /**< b once it is drawn in full, per step */
-  double force;    /**< F then, of √k1 b */
-  double spring;   /**< s, of √k1 */
-  double drawn;    /**< Share of its speed that it has, 0 to 1 */
-  double draw;     /**< What a step adds to it */
-  double pressed;  /**< Share of its force that it has, 0 to 1 */
-  double press;    /**< What a step adds to it */
-  double lift;     /**< What a step takes from it once the bow is lifted */
-  double before;   /**< eᵀu before the step */
-  double rolled;   /**< q */
-  double hair;     /**< b of the last step */
-  double slip;     /**< v of the last step */
-  double friction; /**< f of the last step, in h²/m */
+  BowGlide place;
+  BowGlide strength; /**< Of what is drawn, paced and pressed, see bow_swell() */
+  BowGlide drawn;    /**< b, per step, for a strength of 1 */
+  BowGlide paced;    /**< Where b ends, by which v0 is measured */
+  BowGlide pressed;  /**< F, of √k1 */
+  double spring;     /**< s, of √k1 */
+  double before;     /**< eᵀu before the step */
+  double rolled;     /**< q */
+  double hair;       /**< b of the last step */
+  double slip;       /**< v of the last step */
+  double friction;   /**< f of the last step, in h²/m */
+  uint32_t n_lift;   /**< Steps that it takes to lift it */
   BowGrip grip;
   bool is_lifted;
   bool is_active;
 } Bow;
 
-/** Put a bow to a string and begin to draw it. */
+/**
+   Put a bow to a string and begin to draw it; its strength is 1.
+
+   One that is at work already turns to the new stroke in its attack, from the place, the speed and
+   the force that it has.
+*/
 void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, double rate_hz);
+
+/**
+   Let its strength, with which its speed and its force grow alike, go to `strength` in a straight
+   line over `n_frames`; 0: at once.
+
+   @param strength  0 to 2, and kept to it; 1: as started
+*/
+void bow_swell(Bow* bow, double strength, uint32_t n_frames);
 
 /** Lift it. */
 void bow_lift(Bow* bow);

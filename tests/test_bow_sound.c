@@ -73,7 +73,7 @@ static void bowed_strings_move_as_helmholtz_said(void** state) {
   for (uint32_t key = 33; key <= 84; key += 3) {
     for (uint32_t r = 0; r < STRUNG_N_RATES; ++r) {
       Strung strung;
-      Bow bow;
+      Bow bow = {0};
       double sines = 0.0;
       const double rate_hz = strung_rate_hz(r);
       strung_key(&strung, memory, key, rate_hz, 128, 2.0);
@@ -118,7 +118,7 @@ static void lifted_strings_ring_on_as_they_are(void** state) {
   double worst_swell = 0.0;
   for (size_t k = 0; k < 4; ++k) {
     Strung strung;
-    Bow bow;
+    Bow bow = {0};
     Tone tone;
     double early = 0.0;
     const size_t n = (size_t)(5.0 * 48000.0);
@@ -152,7 +152,7 @@ static void lifted_strings_ring_on_as_they_are(void** state) {
 static void attack_makes_no_click(void** state) {
   (void)state;
   Strung strung;
-  Bow bow;
+  Bow bow = {0};
   double sines = 0.0;
   strung_key(&strung, memory, 57, 48000.0, 128, 2.0);
   bow_string(&strung, &bow, (Stroke){0.13, 0.5, 0.25, 0.05, 0.05}, 0.6, 1.2, &sines);
