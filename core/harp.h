@@ -1,5 +1,8 @@
 /**
-   A string for every key of the MIDI range, with its damper, the pedal and the wheel.
+   A string for every key of the MIDI range, with its damper, the pedals, and the hands that play.
+
+   Where each note is to have a bend and a touch of its own, each has a hand; else one hand plays
+   all keys.  Two hands that hold the same key have a string each.
 
    No string is ever stolen.  A string that has died away is at rest in exact zeros and costs
    nothing.  The samples do not depend on how the frames are cut into calls of harp_run().
@@ -20,17 +23,22 @@
 
 enum {
   HARP_KEYS = 128,
+  HARP_HANDS = 16,
+  HARP_GUESTS = 32, /**< Strings for keys that more than one hand holds */
+  HARP_STRINGS = HARP_KEYS + HARP_GUESTS,
   HARP_MIX_FRAMES = 256, /**< Frames that are mixed at a time */
 };
 
 /** Largest displacement of one string plucked with full velocity, at level 1. */
 #define HARP_NOTE_PEAK 0.25
 
-/** What the player's hands and feet are doing with a key. */
+/** A hand that plays, and the pedals under it. */
 typedef struct {
-  bool is_down; /**< The key is down */
-  bool is_held; /**< It is up, but was down when the pedal was */
-} HarpKey;
+  HarpTouch touch;
+  double lift;       /**< Of the dampers of keys that are up: 0 to 1 */
+  double softness;   /**< Of the soft pedal, 0 to 1 */
+  bool is_sostenuto; /**< The sostenuto pedal is down */
+} HarpHand;
 
 /** What is sounding. */
 typedef struct {
@@ -45,20 +53,19 @@ typedef struct {
   double rate_hz;
   uint32_t n_gesture; /**< Frames that a player's gesture takes to act */
   Patch patch;
-  double bend_semitones;
-  bool is_pedal_down;
+  HarpHand hands[HARP_HANDS];
+  double swell; /**< Gain beside the patch's level */
   Ramp level;
   HarpPickups pickups;
-  uint32_t n_fade; /**< Frames that the next fade will take */
-  HarpKey keys[HARP_KEYS];
-  HarpString strings[HARP_KEYS];
-  void* memory;                 /**< Memory of all strings; owned */
-  HarpString* awake[HARP_KEYS]; /**< The strings awake, while they are run */
-  ChainPart parts[HARP_KEYS];   /**< Their chains, and where they are read */
-  bool is_bowed;                /**< Whether a note has been bowed since all was still */
-  double rest[2];               /**< What stands still on each side, once one has */
-  HarpReading reading;          /**< How they were read last */
-  float before[CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is differentiated */
+  uint32_t n_fade;                  /**< Frames that the next fade will take */
+  HarpString strings[HARP_STRINGS]; /**< Of every key, and then of guests */
+  void* memory;                     /**< Memory of all strings; owned */
+  HarpString* awake[HARP_STRINGS];  /**< The strings awake, while they are run */
+  ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
+  bool is_bowed;                    /**< Whether a note has been bowed since all was still */
+  double rest[2];                   /**< What stands still on each side, once one has */
+  HarpReading reading;              /**< How they were read last */
+  float before[CHAIN_MAX_TAPS];     /**< The last sample of each tap, where it is differentiated */
   float mix[CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;
 
@@ -73,7 +80,7 @@ Harp* harp_new(double rate_hz);
 /** Free a harp; NULL is ignored. */
 void harp_free(Harp* harp);
 
-/** Bring all strings to rest at once; keys and pedal up, wheel in its middle. */
+/** Bring all strings to rest at once; keys and pedals up, no hand does anything. */
 void harp_reset(Harp* harp);
 
 /** Take a new patch; what rings gets there in `n_frames`, and no faster than by a gesture (0: at
@@ -92,23 +99,62 @@ void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_frames);
 */
 void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]);
 
-/** Key down: pluck its string.  `velocity` 1 to 127, loudness as its square; harder plucks are a
- * little brighter. */
-void harp_note_on(Harp* harp, uint32_t key, uint32_t velocity);
+/* What hands do; each is a number less than HARP_HANDS, each key one less than HARP_KEYS.  What it
+   does to what rings takes a gesture, sample by sample. */
 
-/** Key up: the damper falls, unless the pedal is down. */
-void harp_note_off(Harp* harp, uint32_t key);
+/**
+   Key down: play its string.  A key that another hand holds is played on a guest's string, if there
+   is one left; a string whose key is up is taken over.
 
-/** Move the pedal; up, it lets all dampers fall whose keys are up. */
-void harp_pedal(Harp* harp, bool is_down);
+   @param velocity  1 to 127, loudness as its square; harder plucks are a little brighter
+*/
+void harp_note_on(Harp* harp, uint32_t hand, uint32_t key, uint32_t velocity);
 
-/** Bend all strings; what rings keeps exact pitch once it is there. */
-void harp_bend(Harp* harp, double semitones);
+/** Key up: the damper falls, as far as pedals let it. */
+void harp_note_off(Harp* harp, uint32_t hand, uint32_t key);
 
-/** All keys up. */
-void harp_all_notes_off(Harp* harp);
+/** What the hand has played and whose keys are up keeps the touch that it has; only the pedals go
+ * on acting on it. */
+void harp_let_go(Harp* harp, uint32_t hand);
 
-/** All keys and the pedal up, and every string silent in a few hundredths of a second. */
+/** Lift the dampers of all keys that are up: 0, they lie on their strings, to 1, they are off.
+ * Between, they take a share of their way on a scale of octaves of τ. */
+void harp_pedal(Harp* harp, uint32_t hand, double lift);
+
+/** Keep the dampers up of those keys that are down now, until it is up again. */
+void harp_sostenuto(Harp* harp, uint32_t hand, bool is_down);
+
+/** The soft pedal, 0 to 1: the next notes are softer and duller. */
+void harp_soften(Harp* harp, uint32_t hand, double softness);
+
+/** Bend; what rings has exact pitch once it is there. */
+void harp_bend(Harp* harp, uint32_t hand, double semitones);
+
+/** Let the pitch swing, to the sharp side by 0 to 1 semitones, at the patch's rate; its mean stays
+ * exact. */
+void harp_vibrato(Harp* harp, uint32_t hand, double semitones);
+
+/** Press on all keys, 0 to 1: bows are drawn up to twice as strong; what is not bowed swings more.
+ */
+void harp_press(Harp* harp, uint32_t hand, double pressure);
+
+/** Press on one key that is down. */
+void harp_press_key(Harp* harp, uint32_t hand, uint32_t key, double pressure);
+
+/** Make it brighter, −1 to 1: less sits between the masses of what rings, and the next notes are
+ * played with something harder.  The fundamental decays as before. */
+void harp_brighten(Harp* harp, uint32_t hand, double brightness);
+
+/** Share of their strength that bows have, 0 to 1. */
+void harp_breathe(Harp* harp, uint32_t hand, double breath);
+
+/** Gain of all strings beside the patch's level, ≥ 0. */
+void harp_swell(Harp* harp, double gain);
+
+/** All keys of a hand up. */
+void harp_all_notes_off(Harp* harp, uint32_t hand);
+
+/** All keys and pedals up, and every string silent in a few hundredths of a second. */
 void harp_all_sound_off(Harp* harp);
 
 /** Run `n_frames` and write them to `left` and `right`. */

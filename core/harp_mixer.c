@@ -36,8 +36,8 @@ static ChainTap tap_of(const Harp* harp, const HarpString* string, const HarpEar
 /* The strings awake, and where they are read. */
 static uint32_t gather(Harp* harp, const HarpReading* reading) {
   uint32_t n_parts = 0;
-  for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    HarpString* const string = &harp->strings[key];
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    HarpString* const string = &harp->strings[i];
     if (string->wire.is_awake) {
       ChainPart* const part = &harp->parts[n_parts];
       part->chain = &string->wire.chain;
@@ -129,8 +129,12 @@ static uint32_t stretch(const Harp* harp, uint32_t n_frames) {
 }
 
 /* Run a string that something happens to on the way. */
-static void run_in_pieces(
-    HarpString* string, const ChainPart* part, uint32_t n_frames, uint32_t n_taps, float** out) {
+static void run_in_pieces(const Harp* harp,
+                          HarpString* string,
+                          const ChainPart* part,
+                          uint32_t n_frames,
+                          uint32_t n_taps,
+                          float** out) {
   for (uint32_t done = 0; done < n_frames && string->wire.is_awake;) {
     const uint32_t n = least(n_frames - done, harp_string_stretch(string));
     float* rest[CHAIN_MAX_TAPS];
@@ -138,7 +142,7 @@ static void run_in_pieces(
       rest[t] = out[t] + done;
     }
     chain_run_all(part, 1, n, n_taps, rest);
-    harp_string_pass(string, n);
+    harp_string_pass(string, &harp->patch, n);
     done += n;
   }
 }
@@ -153,10 +157,10 @@ run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps, fl
     }
     chain_run_all(&harp->parts[first], i - first, n_frames, n_taps, out);
     for (; first < i; ++first) {
-      harp_string_pass(harp->awake[first], n_frames);
+      harp_string_pass(harp->awake[first], &harp->patch, n_frames);
     }
     if (i < n_parts) {
-      run_in_pieces(harp->awake[i], &harp->parts[i], n_frames, n_taps, out);
+      run_in_pieces(harp, harp->awake[i], &harp->parts[i], n_frames, n_taps, out);
     }
     first = i + 1;
   }

@@ -17,6 +17,19 @@ static const double bow_gains[] = {
 static const double BOW_ATTACK_S = 0.04;
 static const double BOW_RELEASE_S = 0.03;
 
+/* How the hand's brightness moves the loss between the masses: towards a tenth of it, or up, on a
+ * scale of octaves, to its fourth root. */
+static const double BRIGHTEST_LOSS = 0.1;
+static const double DARKEST_LOSS = 0.75;
+static const double LEAST_DARK_LOSS = 1e-5;
+
+/* Vibrato that full pressure asks for [semitones]. */
+static const double PRESSED_VIBRATO = 0.5;
+
+static uint32_t least(uint32_t a, uint32_t b) {
+  return a < b ? a : b;
+}
+
 static bool is_touched(const HarpString* string) {
   return string->hammer.is_active || string->bow.is_active;
 }
@@ -37,26 +50,39 @@ static void leave(HarpString* string) {
   string->bow.is_active = false;
 }
 
-/* What a damper adds acts from outside. */
-static TuningTarget
-target_of(const HarpString* string, const Patch* patch, double f0_hz, Damper damper) {
+/* What is between the masses when the hand makes the string brighter, or darker. */
+static double loss_of(const HarpString* string, const Patch* patch) {
+  const double brightness = string->touch.brightness;
+  if (brightness >= 0.0) {
+    return patch->loss * pow(BRIGHTEST_LOSS, brightness);
+  }
+  return pow(fmax(patch->loss, LEAST_DARK_LOSS), 1.0 + DARKEST_LOSS * brightness);
+}
+
+/* What a damper adds acts from outside; one that is lifted in part, by the same share of the way
+ * on a scale of octaves. */
+static TuningTarget target_of(const HarpString* string, const Patch* patch, double f0_hz) {
   const double octaves = ((double)string->key - 69.0) / 12.0;
   const double open_s = 1.0 / (patch->damping_per_s * exp2(patch->tracking * octaves));
   const TuningTarget open = {
       .rate_hz = string->wire.rate_hz,
       .tone = {.f0_hz = f0_hz, .tau_s = open_s},
-      .loss = patch->loss,
+      .loss = loss_of(string, patch),
       .inharmonicity = patch->inharmonicity,
       .partials = patch->partials,
   };
-  const double hand_s = damper == DAMPER_CHOKING ? WIRE_CHOKE_S : patch->release_s;
-  return damper == DAMPER_OFF ? open : tuning_damped(open, fmin(open_s, hand_s), 0.0);
+  if (string->wire.is_choked) {
+    return tuning_damped(open, fmin(open_s, WIRE_CHOKE_S), 0.0);
+  }
+  const double shut_s = fmin(open_s, patch->release_s);
+  const double tau_s = shut_s * pow(open_s / shut_s, string->lift);
+  return string->lift < 1.0 ? tuning_damped(open, fmin(open_s, tau_s), 0.0) : open;
 }
 
 /* A pluck gives a ringing string the masses back that a bend took. */
-static void mesh_for_pluck(HarpString* string, const Patch* patch, double f0_hz) {
+static void mesh_for_pluck(HarpString* string, const Patch* patch) {
   if (string->wire.chain.n_masses < string->n_strung) {
-    const TuningTarget target = target_of(string, patch, f0_hz, DAMPER_OFF);
+    const TuningTarget target = target_of(string, patch, harp_string_pitch_hz(string, patch));
     const uint32_t n_masses = tuning_max_masses(&target, string->n_strung);
     if (n_masses > string->wire.chain.n_masses) {
       wire_mesh(&string->wire, &target, n_masses);
@@ -64,55 +90,109 @@ static void mesh_for_pluck(HarpString* string, const Patch* patch, double f0_hz)
   }
 }
 
-static bool restring(HarpString* string, const Patch* patch, double f0_hz) {
-  const TuningTarget target = target_of(string, patch, f0_hz, DAMPER_OFF);
+static bool restring(HarpString* string, const Patch* patch) {
+  wire_choke(&string->wire, false);
+  const TuningTarget target = target_of(string, patch, harp_string_pitch_hz(string, patch));
   const bool is_strung = wire_string(&string->wire, &target, patch->max_masses);
-  string->damper = DAMPER_OFF;
   string->n_strung = is_strung ? string->wire.chain.n_masses : 0;
+  string->vibrato = (Vibrato){0};
   return is_strung;
 }
 
-double harp_string_pitch_hz(const HarpString* string, const Patch* patch, double bend_semitones) {
-  return patch->tuning_hz * exp2((string->semitones + bend_semitones) / 12.0);
+double harp_string_pitch_hz(const HarpString* string, const Patch* patch) {
+  return patch->tuning_hz * exp2((string->semitones + string->touch.bend) / 12.0);
 }
 
 void harp_string_init(
     HarpString* string, double rate_hz, uint32_t key, void* memory, uint32_t capacity) {
-  *string = (HarpString){.key = key, .semitones = (double)key - 69.0};
+  *string = (HarpString){.key = key, .semitones = (double)key - 69.0, .touch = HARP_TOUCH_NONE};
   wire_init(&string->wire, rate_hz, key, memory, capacity);
-}
-
-void harp_string_retune(HarpString* string,
-                        const Patch* patch,
-                        double bend_semitones,
-                        Damper damper,
-                        uint32_t n_glide) {
-  Wire* const wire = &string->wire;
-  const double f0_hz = harp_string_pitch_hz(string, patch, bend_semitones);
-  TuningTarget target = target_of(string, patch, f0_hz, damper);
-  if (is_touched(string)) {
-    wire_feed(wire);
-  }
-  if (!wire_retune(wire, &target, n_glide)) {
-    damper = DAMPER_CHOKING;
-    target = target_of(string, patch, wire->f0_hz, damper);
-    if (!wire_retune(wire, &target, n_glide)) {
-      wire_sleep(wire);
-      leave(string);
-      return;
-    }
-  }
-  wire_choke(wire, damper == DAMPER_CHOKING);
-  string->damper = damper;
-  if (damper == DAMPER_CHOKING) {
-    leave(string);
-  }
-  look(string);
 }
 
 void harp_string_rest(HarpString* string) {
   wire_sleep(&string->wire);
   leave(string);
+  string->touch = HARP_TOUCH_NONE;
+  string->vibrato = (Vibrato){0};
+  string->hand = 0;
+  string->is_down = false;
+  string->is_caught = false;
+  string->is_let_go = false;
+  string->leaned_on = 0.0;
+}
+
+static double pressure_of(const HarpString* string) {
+  return fmax(string->touch.pressure, string->leaned_on);
+}
+
+static double vibrato_of(const HarpString* string) {
+  const double pressed = string->bow.is_active ? 0.0 : PRESSED_VIBRATO * pressure_of(string);
+  return string->touch.vibrato + pressed;
+}
+
+/* Bring it to where it is to be after `n_glide` frames. */
+static bool glide(HarpString* string, const Patch* patch, uint32_t n_glide) {
+  const double swing = exp2(vibrato_semitones(&string->vibrato) / 12.0);
+  const double f0_hz = swing * harp_string_pitch_hz(string, patch);
+  const TuningTarget target = target_of(string, patch, f0_hz);
+  return wire_retune(&string->wire, &target, n_glide);
+}
+
+/* The same, where it hangs on the way, and with its last pitch if the new one cannot be had. */
+static void glide_or_choke(HarpString* string, const Patch* patch, uint32_t n_glide) {
+  Wire* const wire = &string->wire;
+  if (is_touched(string)) {
+    wire_feed(wire);
+  }
+  if (!glide(string, patch, n_glide)) {
+    wire_choke(wire, true);
+    const TuningTarget target = target_of(string, patch, wire->f0_hz);
+    if (!wire_retune(wire, &target, n_glide)) {
+      wire_sleep(wire);
+    }
+  }
+  if (!wire->is_awake || wire->is_choked) {
+    leave(string);
+  }
+  look(string);
+}
+
+/* The vibrato's next piece ends after `n_frames`. */
+static void swing(HarpString* string, const Patch* patch, uint32_t n_frames) {
+  vibrato_go(&string->vibrato, patch->vibrato_hz / string->wire.rate_hz, n_frames);
+  string->n_swing = n_frames;
+}
+
+static void lean(HarpString* string, uint32_t n_glide) {
+  if (string->bow.is_active) {
+    bow_swell(&string->bow, string->touch.breath * (1.0 + pressure_of(string)), n_glide);
+  }
+}
+
+/* A vibrato is not stretched by slow changes. */
+void harp_string_retune(HarpString* string, const Patch* patch, uint32_t n_glide) {
+  if (!string->wire.is_awake || string->wire.is_choked) {
+    return;
+  }
+  const uint32_t n_gesture = wire_gesture_frames(string->wire.rate_hz);
+  const double depth = vibrato_of(string);
+  if (depth != string->vibrato.goal) {
+    vibrato_to(&string->vibrato, depth, n_gesture);
+  }
+  if (!vibrato_is_still(&string->vibrato)) {
+    n_glide = least(n_glide, n_gesture);
+    swing(string, patch, n_glide > 0 ? n_glide : 1);
+  }
+  lean(string, n_glide);
+  glide_or_choke(string, patch, n_glide);
+}
+
+void harp_string_choke(HarpString* string, const Patch* patch, uint32_t n_glide) {
+  if (string->wire.is_awake) {
+    wire_choke(&string->wire, true);
+    string->vibrato = (Vibrato){0};
+    glide_or_choke(string, patch, n_glide);
+  }
 }
 
 static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
@@ -141,17 +221,21 @@ static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
   }
 }
 
-void harp_string_play(
-    HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide) {
-  const double f0_hz = harp_string_pitch_hz(string, patch, bend_semitones);
+void harp_string_play(HarpString* string, const Patch* patch, Pluck pluck, uint32_t n_glide) {
+  string->lift = 1.0;
   if (string->wire.is_awake) {
-    mesh_for_pluck(string, patch, f0_hz);
-    harp_string_retune(string, patch, bend_semitones, DAMPER_OFF, n_glide);
-  } else if (!restring(string, patch, f0_hz)) {
+    wire_choke(&string->wire, false);
+    mesh_for_pluck(string, patch);
+    harp_string_retune(string, patch, n_glide);
+  } else if (!restring(string, patch)) {
     return;
   }
-  if (string->wire.is_awake && string->damper == DAMPER_OFF) {
+  if (string->wire.is_awake && !string->wire.is_choked) {
     excite(string, patch, pluck);
+    lean(string, 0);
+    if (vibrato_of(string) != string->vibrato.goal) {
+      harp_string_retune(string, patch, n_glide);
+    }
   }
 }
 
@@ -162,10 +246,11 @@ void harp_string_lift(HarpString* string) {
 }
 
 uint32_t harp_string_stretch(const HarpString* string) {
-  return is_touched(string) ? 1 : wire_stretch(&string->wire);
+  const uint32_t n_wire = is_touched(string) ? 1 : wire_stretch(&string->wire);
+  return vibrato_is_still(&string->vibrato) ? n_wire : least(n_wire, string->n_swing);
 }
 
-void harp_string_pass(HarpString* string, uint32_t n_frames) {
+void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames) {
   Wire* const wire = &string->wire;
   if (is_touched(string)) {
     hammer_act(&string->hammer, &wire->chain);
@@ -175,4 +260,11 @@ void harp_string_pass(HarpString* string, uint32_t n_frames) {
     }
   }
   wire_pass(wire, n_frames);
+  if (!vibrato_is_still(&string->vibrato)) {
+    string->n_swing -= n_frames;
+    if (string->n_swing == 0 && wire->is_awake) {
+      swing(string, patch, VIBRATO_PIECE_FRAMES);
+      glide_or_choke(string, patch, VIBRATO_PIECE_FRAMES);
+    }
+  }
 }

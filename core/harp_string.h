@@ -1,5 +1,6 @@
 /**
-   One string of the harp: the key it belongs to, its damper, and what it is played with.
+   One string of the harp: the key it belongs to, its damper, what it is played with, and what the
+   hand that played it does to it since.
 
    Thread: one at a time; real-time safe.
 */
@@ -9,17 +10,23 @@
 #include "core/bow.h"
 #include "core/hammer.h"
 #include "core/patch.h"
+#include "core/vibrato.h"
 #include "core/wire.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/** What touches the string. */
-typedef enum {
-  DAMPER_OFF,    /**< Nothing: it rings with its own decay */
-  DAMPER_ON,     /**< The damper: it dies with the patch's release */
-  DAMPER_CHOKING /**< A hand: it is gone in a moment */
-} Damper;
+/** What a hand does to a string that it has played. */
+typedef struct {
+  double bend;       /**< [semitones] */
+  double vibrato;    /**< To the sharp side [semitones], 0 to 1 */
+  double brightness; /**< −1, dark, to 1, bright; 0: as the patch has it */
+  double pressure;   /**< 0 to 1: leans on the bow, or else adds to the vibrato */
+  double breath;     /**< Share of the bow's strength, 0 to 1 */
+} HarpTouch;
+
+/** A hand that does nothing. */
+#define HARP_TOUCH_NONE ((HarpTouch){.breath = 1.0})
 
 /** Zero is a string that is asleep and has no memory. */
 typedef struct {
@@ -27,20 +34,30 @@ typedef struct {
   uint32_t key;      /**< MIDI note number */
   double semitones;  /**< Its pitch above A4 [semitones]; NAN: it has none, and is silent */
   uint32_t n_strung; /**< Masses that it was strung with; a bend may have left it fewer */
-  Damper damper;
-  Hammer hammer; /**< What strikes it now */
-  Bow bow;       /**< What is drawn across it now */
+  double lift;       /**< Of its damper: 0, it lies on the string, to 1, it does not touch it */
+  HarpTouch touch;   /**< Set it before harp_string_play() or harp_string_retune() */
+  Vibrato vibrato;
+  uint32_t n_swing; /**< Frames until the vibrato's next piece */
+  Hammer hammer;    /**< What strikes it now */
+  Bow bow;          /**< What is drawn across it now */
+
+  /* Who plays it; the harp's */
+  uint32_t hand;    /**< The hand that played it last */
+  bool is_down;     /**< Its key is down */
+  bool is_caught;   /**< Its damper is held up by the sostenuto pedal */
+  bool is_let_go;   /**< It follows the hand no more */
+  double leaned_on; /**< Pressure of its key alone, 0 to 1 */
 } HarpString;
 
-/** The pitch of a string [Hz], with a bend in semitones. */
-double harp_string_pitch_hz(const HarpString* string, const Patch* patch, double bend_semitones);
+/** The pitch of a string [Hz], bent as its hand bends it but for the vibrato. */
+double harp_string_pitch_hz(const HarpString* string, const Patch* patch);
 
 /** Lay a string at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT; it
  * has the pitch of its key in equal temperament, and never more masses than `capacity`. */
 void harp_string_init(
     HarpString* string, double rate_hz, uint32_t key, void* memory, uint32_t capacity);
 
-/** Silence it at once, with nothing at it. */
+/** Silence it at once, with nothing at it and nobody playing it. */
 void harp_string_rest(HarpString* string);
 
 /**
@@ -52,24 +69,27 @@ void harp_string_rest(HarpString* string);
    @param pluck  As loud as a strike or a bow is to be; its hardness is the hammer's, or the bow's
    pressure
 */
-void harp_string_play(
-    HarpString* string, const Patch* patch, double bend_semitones, Pluck pluck, uint32_t n_glide);
+void harp_string_play(HarpString* string, const Patch* patch, Pluck pluck, uint32_t n_glide);
 
 /** Lift the bow, if there is one. */
 void harp_string_lift(HarpString* string);
 
 /**
-   Bring a ringing string to the patch, bend and damper in `n_glide` frames, see wire_retune().  A
-   pitch that cannot be had at all chokes it.
+   Bring a ringing string to the patch, its touch and its damper's `lift` in `n_glide` frames, see
+   wire_retune().  One that is choked, or asleep, is left alone; a pitch that cannot be had at all
+   chokes it.
 */
-void harp_string_retune(
-    HarpString* string, const Patch* patch, double bend_semitones, Damper damper, uint32_t n_glide);
+void harp_string_retune(HarpString* string, const Patch* patch, uint32_t n_glide);
+
+/** Lay a hand on it: it is gone in a moment. */
+void harp_string_choke(HarpString* string, const Patch* patch, uint32_t n_glide);
 
 /** Frames that its chain can be run in one go, before harp_string_pass() must be told: one while a
  * hammer or a bow is at it. */
 uint32_t harp_string_stretch(const HarpString* string);
 
-/** After `n_frames`, at most its stretch: let the hammer and the bow act, and see wire_pass(). */
-void harp_string_pass(HarpString* string, uint32_t n_frames);
+/** After `n_frames`, at most its stretch: let the hammer, the bow and the vibrato act, and see
+ * wire_pass(). */
+void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames);
 
 #endif

@@ -38,6 +38,8 @@ typedef struct {
   double hardness;  /**< Of what plucks or strikes, or pressure of the bow, 0 to 1 */
   double release_s; /**< τ once the key is up [s], > 0; a damper never makes a string ring longer */
   double tuning_hz;    /**< A4 [Hz], > 0 */
+  double resonance;    /**< How much the bridge that all strings share moves, 0 to 1 */
+  double vibrato_hz;   /**< How fast a vibrato is [Hz], > 0 */
   uint32_t max_masses; /**< Most masses of a string, ≥ 1 */
 } Patch;
 

@@ -25,6 +25,8 @@ Patch strings_ports_patch(const Controls* controls) {
       .hardness = (double)v[STRINGS_PORT_HARDNESS],
       .release_s = (double)v[STRINGS_PORT_RELEASE],
       .tuning_hz = (double)v[STRINGS_PORT_TUNING],
+      .resonance = (double)v[STRINGS_PORT_RESONANCE],
+      .vibrato_hz = (double)v[STRINGS_PORT_VIBRATO_RATE],
       .max_masses = ports_whole(v[STRINGS_PORT_MASSES]),
   };
 }

@@ -73,7 +73,7 @@ static void no_string_is_stolen(void** state) {
   (void)state;
   Harp* const harp = new_harp(192000.0, &plain);
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    harp_note_on(harp, key, 100);
+    harp_note_on(harp, 0, key, 100);
   }
   run_for(harp, 2000);
   assert_int_equal(harp_report(harp).n_strings, HARP_KEYS);
@@ -90,7 +90,7 @@ static void key_at_or_above_nyquist_is_silent(void** state) {
   for (uint32_t key = 0; key < HARP_KEYS; ++key) {
     const double f0_hz = 440.0 * exp2((key - 69.0) / 12.0);
     harp_reset(harp);
-    harp_note_on(harp, key, 127);
+    harp_note_on(harp, 0, key, 127);
     assert_int_equal(harp_report(harp).n_strings, f0_hz < 4000.0);
     run_for(harp, 500);
     assert_true((peak_of(left, 500) > 0.0) == (f0_hz < 4000.0));
@@ -104,7 +104,7 @@ static void dead_string_sleeps_in_exact_zeros(void** state) {
   patch.damping_per_s = 20.0;
   Harp* const harp = new_harp(48000.0, &patch);
   const HarpString* const string = &harp->strings[A4];
-  harp_note_on(harp, A4, 127);
+  harp_note_on(harp, 0, A4, 127);
   double loudest = 0.0;
   double before = 0.0;
   uint32_t n_frames = 0;
@@ -140,7 +140,7 @@ static void no_string_sleeps_before_120_db(void** state) {
       patch.damping_per_s = damping;
       harp_reset(harp);
       harp_set_patch(harp, &patch, 0);
-      harp_note_on(harp, keys[k], 90);
+      harp_note_on(harp, 0, keys[k], 90);
       double last = HUGE_VAL;
       double loudest = 0.0;
       for (uint32_t n = 0; harp_report(harp).n_strings > 0; n += 16) {
@@ -163,12 +163,12 @@ static void plucking_again_adds(void** state) {
   static float twice[FRAMES];
   static float once[FRAMES];
   Harp* const harp = new_harp(48000.0, &plain);
-  harp_note_on(harp, 50, 100);
+  harp_note_on(harp, 0, 50, 100);
   harp_run(harp, FRAMES, once, right);
   harp_reset(harp);
-  harp_note_on(harp, 50, 100);
+  harp_note_on(harp, 0, 50, 100);
   harp_run(harp, GAP, twice, right);
-  harp_note_on(harp, 50, 100);
+  harp_note_on(harp, 0, 50, 100);
   harp_run(harp, FRAMES - GAP, twice + GAP, right);
   double worst = 0.0;
   for (uint32_t n = 0; n < FRAMES; ++n) {
@@ -196,11 +196,11 @@ static void check_decay(Harp* harp, uint32_t key, double tau_s) {
 static void damper_falls_when_the_key_goes_up(void** state) {
   (void)state;
   Harp* const harp = new_harp(48000.0, &plain);
-  harp_note_on(harp, 60, 100);
+  harp_note_on(harp, 0, 60, 100);
   check_decay(harp, 60, RINGS_S);
-  harp_note_off(harp, 60);
+  harp_note_off(harp, 0, 60);
   check_decay(harp, 60, DAMPED_S);
-  harp_note_on(harp, 60, 100);
+  harp_note_on(harp, 0, 60, 100);
   check_decay(harp, 60, RINGS_S);
   harp_free(harp);
 }
@@ -208,13 +208,13 @@ static void damper_falls_when_the_key_goes_up(void** state) {
 static void pedal_holds_what_is_let_go(void** state) {
   (void)state;
   Harp* const harp = new_harp(48000.0, &plain);
-  harp_note_on(harp, 60, 100);
-  harp_note_on(harp, 64, 100);
-  harp_pedal(harp, true);
-  harp_note_off(harp, 60);
+  harp_note_on(harp, 0, 60, 100);
+  harp_note_on(harp, 0, 64, 100);
+  harp_pedal(harp, 0, 1.0);
+  harp_note_off(harp, 0, 60);
   check_decay(harp, 60, RINGS_S);
   check_decay(harp, 64, RINGS_S);
-  harp_pedal(harp, false);
+  harp_pedal(harp, 0, 0.0);
   check_decay(harp, 60, DAMPED_S);
   check_decay(harp, 64, RINGS_S);
   harp_free(harp);
@@ -223,39 +223,40 @@ static void pedal_holds_what_is_let_go(void** state) {
 static void key_down_again_is_not_let_go_by_the_pedal(void** state) {
   (void)state;
   Harp* const harp = new_harp(48000.0, &plain);
-  harp_pedal(harp, true);
-  harp_note_on(harp, 60, 100);
-  harp_note_off(harp, 60);
-  harp_note_on(harp, 60, 100);
-  harp_pedal(harp, false);
+  harp_pedal(harp, 0, 1.0);
+  harp_note_on(harp, 0, 60, 100);
+  harp_note_off(harp, 0, 60);
+  harp_note_on(harp, 0, 60, 100);
+  harp_pedal(harp, 0, 0.0);
   check_decay(harp, 60, RINGS_S);
-  harp_note_off(harp, 60);
+  harp_note_off(harp, 0, 60);
   check_decay(harp, 60, DAMPED_S);
   harp_free(harp);
 }
 
-static void pedal_does_not_raise_a_fallen_damper(void** state) {
+static void pedal_raises_fallen_dampers(void** state) {
   (void)state;
   Harp* const harp = new_harp(48000.0, &plain);
-  harp_note_on(harp, 60, 100);
-  harp_note_off(harp, 60);
-  harp_pedal(harp, true);
+  harp_note_on(harp, 0, 60, 100);
+  harp_note_off(harp, 0, 60);
   check_decay(harp, 60, DAMPED_S);
+  harp_pedal(harp, 0, 1.0);
+  check_decay(harp, 60, RINGS_S);
   harp_free(harp);
 }
 
 static void all_notes_off_is_every_key_up(void** state) {
   (void)state;
   Harp* const harp = new_harp(48000.0, &plain);
-  harp_note_on(harp, 60, 100);
-  harp_note_on(harp, 72, 100);
-  harp_all_notes_off(harp);
+  harp_note_on(harp, 0, 60, 100);
+  harp_note_on(harp, 0, 72, 100);
+  harp_all_notes_off(harp, 0);
   check_decay(harp, 60, DAMPED_S);
-  harp_note_on(harp, 60, 100);
-  harp_pedal(harp, true);
-  harp_all_notes_off(harp);
+  harp_note_on(harp, 0, 60, 100);
+  harp_pedal(harp, 0, 1.0);
+  harp_all_notes_off(harp, 0);
   check_decay(harp, 60, RINGS_S);
-  harp_pedal(harp, false);
+  harp_pedal(harp, 0, 0.0);
   check_decay(harp, 60, DAMPED_S);
   harp_free(harp);
 }
@@ -265,9 +266,9 @@ static void all_sound_off_is_silence_in_a_moment(void** state) {
   Patch patch = plain;
   patch.release_s = 10.0;
   Harp* const harp = new_harp(48000.0, &patch);
-  harp_pedal(harp, true);
+  harp_pedal(harp, 0, 1.0);
   for (uint32_t key = 30; key < 90; ++key) {
-    harp_note_on(harp, key, 127);
+    harp_note_on(harp, 0, key, 127);
   }
   run_for(harp, 1000);
   harp_all_sound_off(harp);
@@ -275,9 +276,13 @@ static void all_sound_off_is_silence_in_a_moment(void** state) {
   assert_true(peak_of(left + 4700, 100) < 1e-6);
   run_for(harp, 9600);
   assert_int_equal(harp_report(harp).n_strings, 0);
-  for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    assert_false(harp->keys[key].is_down || harp->keys[key].is_held || harp->is_pedal_down);
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    assert_false(harp->strings[i].is_down || harp->strings[i].is_caught);
   }
+  harp_set_patch(harp, &plain, 0);
+  harp_note_on(harp, 0, 60, 100);
+  harp_note_off(harp, 0, 60);
+  check_decay(harp, 60, DAMPED_S);
   harp_free(harp);
 }
 
@@ -291,7 +296,7 @@ int main(void) {
       cmocka_unit_test(damper_falls_when_the_key_goes_up),
       cmocka_unit_test(pedal_holds_what_is_let_go),
       cmocka_unit_test(key_down_again_is_not_let_go_by_the_pedal),
-      cmocka_unit_test(pedal_does_not_raise_a_fallen_damper),
+      cmocka_unit_test(pedal_raises_fallen_dampers),
       cmocka_unit_test(all_notes_off_is_every_key_up),
       cmocka_unit_test(all_sound_off_is_silence_in_a_moment),
   };

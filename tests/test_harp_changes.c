@@ -52,7 +52,7 @@ static void play_change(Sound* sound,
                         uint32_t n_glide) {
   harp_reset(harp);
   harp_set_patch(harp, before, 0);
-  harp_note_on(harp, 57, 110);
+  harp_note_on(harp, 0, 57, 110);
   harp_run(harp, at, sound->left, sound->right);
   harp_set_patch(harp, after, n_glide);
   harp_run(harp, FRAMES - at, sound->left + at, sound->right + at);
@@ -153,12 +153,12 @@ static void bent_note_is_in_tune(void** state) {
     harp_reset(harp);
     patch.tuning_hz = 440.0;
     harp_set_patch(harp, &patch, 0);
-    harp_note_on(harp, key, 100);
+    harp_note_on(harp, 0, key, 100);
     const uint32_t n_masses = harp_report(harp).n_masses;
     for (size_t b = 0; b < 6; ++b) {
       patch.tuning_hz = b % 2 ? 446.0 : 440.0;
       harp_set_patch(harp, &patch, 100);
-      harp_bend(harp, bends[b]);
+      harp_bend(harp, 0, bends[b]);
       float out[2][500];
       harp_run(harp, 500, out[0], out[1]);
       const double wanted_hz = patch.tuning_hz * exp2((key - 69.0 + bends[b]) / 12.0);
@@ -186,9 +186,9 @@ static void damper_leaves_the_loss_between_masses(void** state) {
     patch.max_masses = 40;
     harp_reset(harp);
     harp_set_patch(harp, &patch, 0);
-    harp_note_on(harp, 57, 100);
+    harp_note_on(harp, 0, 57, 100);
     const StringCoefs open = harp->strings[57].wire.chain.goal;
-    harp_note_off(harp, 57);
+    harp_note_off(harp, 0, 57);
     const StringCoefs damped = harp->strings[57].wire.chain.goal;
     worst = fmax(worst, fabs(damped.z1 / open.z1 - 1.0));
     assert_true(damped.z0 > open.z0);

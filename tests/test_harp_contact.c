@@ -30,9 +30,9 @@ static void a_bend_does_not_take_back_what_is_being_given(void** state) {
         /* The first is never. */
         const size_t at = instant == 0 ? RATE / 4 : 40 * instant;
         harps_restart(harp, &patch);
-        harp_note_on(harp, key, 100);
+        harp_note_on(harp, 0, key, 100);
         harps_run(harp, at, left, NULL);
-        harp_bend(harp, 1e-6);
+        harp_bend(harp, 0, 1e-6);
         harps_run(harp, RATE / 4 - at, left + at, NULL);
         const double now = measure_rms(left + RATE / 100, RATE / 5);
         level = instant == 0 ? now : level;
@@ -71,14 +71,14 @@ static void what_touches_a_string_sees_it_as_it_is(void** state) {
       for (size_t at = 20; at <= 5120; at *= 2) {
         const HarpString* const string = &harp->strings[key];
         harps_restart(harp, &patch);
-        harp_note_on(harp, key, 100);
+        harp_note_on(harp, 0, key, 100);
         harps_run(harp, at, NULL, NULL);
         n_seen += string->bow.is_active || string->hammer.is_active;
-        harp_bend(harp, 7.0);
+        harp_bend(harp, 0, 7.0);
         assert_sees(string);
         harps_run(harp, 10, NULL, NULL);
         harp_set_patch(harp, &pluck, 100);
-        harp_note_on(harp, key, 100);
+        harp_note_on(harp, 0, key, 100);
         assert_sees(string);
       }
     }
@@ -91,7 +91,7 @@ static void what_touches_a_string_sees_it_as_it_is(void** state) {
 static double brightness(Harp* harp, const Patch* patch) {
   double steps = 0.0;
   harps_restart(harp, patch);
-  harp_note_on(harp, 45, 100);
+  harp_note_on(harp, 0, 45, 100);
   harps_run(harp, RATE / 2, left, NULL);
   for (size_t i = RATE / 4; i < RATE / 2; ++i) {
     steps += pow((double)(left[i] - left[i - 1]), 2.0);

@@ -35,10 +35,10 @@ static void run(Harp* harp, double from_s, double to_s) {
 
 /* Played and, at a second, let go with the pedal down. */
 static void play_and_let_go(Harp* harp, uint32_t key, double to_s) {
-  harp_note_on(harp, key, 100);
-  harp_pedal(harp, true);
+  harp_note_on(harp, 0, key, 100);
+  harp_pedal(harp, 0, 1.0);
   run(harp, 0.0, 1.0);
-  harp_note_off(harp, key);
+  harp_note_off(harp, 0, key);
   run(harp, 1.0, to_s);
 }
 
@@ -75,7 +75,7 @@ static void a_bow_sustains_while_its_key_is_down(void** state) {
     Harp* const harp = harps_new(RATE, &patch);
     for (uint32_t key = 33; key <= 96; key += 3) {
       harps_restart(harp, &patch);
-      harp_note_on(harp, key, 100);
+      harp_note_on(harp, 0, key, 100);
       run(harp, 0.0, 3.2);
       worst = fmax(worst, fabs(level_db(3.0) - level_db(1.0)));
       assert_true(level_db(3.0) > -50.0);
@@ -102,7 +102,7 @@ static void a_bow_is_lifted_when_its_key_goes_up(void** state) {
     run(harp, 1.04, 3.2);
     const double fall = decibels(exp(-1.0 / tau_s));
     worst = fmax(worst, fabs(level_db(3.0) - level_db(2.0) - fall));
-    harp_pedal(harp, false);
+    harp_pedal(harp, 0, 0.0);
     run(harp, 3.2, 4.0);
     assert_true(level_db(3.8) < level_db(3.0) - 30.0);
   }
@@ -117,13 +117,13 @@ static void a_struck_string_is_damped_when_its_key_goes_up(void** state) {
   Harp* const harp = harps_new(RATE, &patch);
   for (uint32_t key = 33; key <= 96; key += 7) {
     harps_restart(harp, &patch);
-    harp_note_on(harp, key, 100);
+    harp_note_on(harp, 0, key, 100);
     run(harp, 0.0, 0.5);
-    harp_note_off(harp, key);
+    harp_note_off(harp, 0, key);
     run(harp, 0.5, 1.0);
     /* Three times the release, which is 0.1 s, at least. */
     assert_true(level_db(0.9) < level_db(0.3) - decibels(exp(3.0)));
-    assert_int_equal(harp->strings[key].damper, DAMPER_ON);
+    assert_true(harp->strings[key].lift == 0.0);
     run(harp, 1.0, 4.0);
     assert_int_equal(harp_report(harp).n_strings, 0);
     assert_true(left[4 * RATE - 1] == 0.0f);
@@ -146,9 +146,9 @@ static void a_bow_neither_comes_nor_goes_with_a_click(void** state) {
       const double bowed = harps_largest_step(left + RATE / 2, RATE / 2);
       start = fmax(start, harps_largest_step(left + 1, RATE / 25) / bowed);
       lift = fmax(lift, harps_largest_step(left + RATE, RATE / 10) / bowed);
-      harp_note_on(harp, key, 100);
+      harp_note_on(harp, 0, key, 100);
       run(harp, 1.5, 1.7);
-      harp_note_on(harp, key, 100);
+      harp_note_on(harp, 0, key, 100);
       run(harp, 1.7, 2.0);
       again = fmax(again, harps_largest_step(left + RATE * 3 / 2, RATE / 2) / bowed);
     }
@@ -172,7 +172,7 @@ static void all_sound_off_and_reset_silence_all_ways(void** state) {
       for (int in_contact = 0; in_contact < 2; ++in_contact) {
         const double to_s = in_contact ? 0.001 : 0.3;
         harps_restart(harp, &patch);
-        harp_note_on(harp, key, 127);
+        harp_note_on(harp, 0, key, 127);
         run(harp, 0.0, to_s);
         harp_all_sound_off(harp);
         run(harp, to_s, 1.5);
@@ -181,7 +181,7 @@ static void all_sound_off_and_reset_silence_all_ways(void** state) {
           last = left[i] != 0.0f || right[i] != 0.0f ? i + 1 : last;
         }
         worst_s = fmax(worst_s, (double)last / RATE - to_s);
-        harp_note_on(harp, key, 127);
+        harp_note_on(harp, 0, key, 127);
         run(harp, 0.0, to_s);
         harp_reset(harp);
         run(harp, 0.0, 0.1);

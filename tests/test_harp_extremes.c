@@ -61,7 +61,7 @@ static void pluck(Case* c) {
   c->patch = settings_patch(&c->setting);
   harp_string_init(&c->string, c->rate_hz, c->key, memory, CHAIN_MAX_MASSES);
   const Pluck hardest = {c->patch.pluck, c->patch.hardness, HARP_NOTE_PEAK};
-  harp_string_play(&c->string, &c->patch, 0.0, hardest, 0);
+  harp_string_play(&c->string, &c->patch, hardest, 0);
 }
 
 /* How near the limit a single mass of this tone is: what it would take to sound at all. */
@@ -100,7 +100,9 @@ static double check_margins(Case* c) {
   double worst = 1.0;
   for (int b = 0; c->string.wire.is_awake && b < 5; ++b) {
     worst = fmin(worst, margin(c));
-    harp_string_retune(&c->string, &c->patch, bends[b], b % 2 ? DAMPER_OFF : DAMPER_ON, 0);
+    c->string.touch.bend = bends[b];
+    c->string.lift = b % 2;
+    harp_string_retune(&c->string, &c->patch, 0);
   }
   return worst;
 }

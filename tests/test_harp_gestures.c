@@ -63,15 +63,15 @@ static bool gesture(Harp* harp, Random* random) {
                                               : random_between(random, -24.0, 24.0);
   switch (choice) {
   case 0:
-    harp_pedal(harp, true);
+    harp_pedal(harp, 0, 1.0);
     break;
   case 1:
-    harp_pedal(harp, false);
+    harp_pedal(harp, 0, 0.0);
     break;
   case 2:
   case 3:
   case 4:
-    harp_bend(harp, bend);
+    harp_bend(harp, 0, bend);
     break;
   case 5:
   case 6:
@@ -79,7 +79,7 @@ static bool gesture(Harp* harp, Random* random) {
     harp_set_patch(harp, &patch, n_glide);
     break;
   case 8:
-    harp_all_notes_off(harp);
+    harp_all_notes_off(harp, 0);
     break;
   case 9:
     if (random_below(random, 4) == 0) {
@@ -90,10 +90,10 @@ static bool gesture(Harp* harp, Random* random) {
   case 11:
   case 12:
   case 13:
-    harp_note_off(harp, key);
+    harp_note_off(harp, 0, key);
     break;
   default:
-    harp_note_on(harp, key, 1 + random_below(random, 127));
+    harp_note_on(harp, 0, key, 1 + random_below(random, 127));
     return true;
   }
   return false;
@@ -142,8 +142,8 @@ static void cutting_into_calls_does_not_change_a_bit(void** state) {
 /* Every string that sounds, by the coefficients it has at this very frame. */
 static void check_strings(const Harp* harp) {
   uint32_t n_strings = 0;
-  for (uint32_t key = 0; key < HARP_KEYS; ++key) {
-    const HarpString* const string = &harp->strings[key];
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    const HarpString* const string = &harp->strings[i];
     if (string->wire.is_awake) {
       assert_true(oracle_headroom(string->wire.chain.now, string->wire.chain.n_masses) >= 0.0);
       assert_true(string->wire.chain.n_masses <= string->wire.capacity);
@@ -206,7 +206,7 @@ static void masses_are_capped_by_the_patch(void** state) {
     harp_reset(harp);
     harp_set_patch(harp, &patch, 0);
     for (uint32_t key = 20; key < 40; ++key) {
-      harp_note_on(harp, key, 64);
+      harp_note_on(harp, 0, key, 64);
     }
     assert_int_equal(harp_report(harp).n_masses, 20 * most);
   }

@@ -87,11 +87,11 @@ static void every_key_has_the_pitch_of_the_scale(void** state) {
       harp_reset(harp);
       harp_set_patch(harp, &patch, 0);
       set_steps(harp, steps[s]);
-      harp_bend(harp, bends[b]);
+      harp_bend(harp, 0, bends[b]);
       for (uint32_t key = 0; key < HARP_KEYS; ++key) {
         const double octaves = ((double)key - 69.0) / 12.0;
         const double hz = patch.tuning_hz * exp2(steps[s] * octaves + bends[b] / 12.0);
-        harp_note_on(harp, key, 100);
+        harp_note_on(harp, 0, key, 100);
         assert_true(hz >= 0.49 * RATE || harp->strings[key].wire.is_awake);
         assert_true(hz < 0.5 * RATE || !harp->strings[key].wire.is_awake);
         if (harp->strings[key].wire.is_awake) {
@@ -118,9 +118,9 @@ static void equal_temperament_is_where_it_begins(void** state) {
     if (i) {
       set_steps(harp, 1.0);
     }
-    harp_bend(harp, 0.37);
+    harp_bend(harp, 0, 0.37);
     for (uint32_t key = 0; key < HARP_KEYS; key += 5) {
-      harp_note_on(harp, key, 90);
+      harp_note_on(harp, 0, key, 90);
     }
     run(harp, sound, 0, 3000);
     if (i) {
@@ -142,17 +142,17 @@ static void a_low_pitch_has_its_masses_on_every_key(void** state) {
   for (int pitch = 0; pitch < 128; pitch += 9) {
     harp_reset(harp);
     set_steps(harp, 1.0);
-    harp_note_on(harp, (uint32_t)pitch, 100);
+    harp_note_on(harp, 0, (uint32_t)pitch, 100);
     const uint32_t n_masses = harp->strings[pitch].wire.chain.n_masses;
     for (int key = 0; key < 128; key += 7) {
       harp_reset(harp);
       set_key(harp, key, pitch - 69);
-      harp_note_on(harp, (uint32_t)key, 100);
+      harp_note_on(harp, 0, (uint32_t)key, 100);
       assert_int_equal(harp->strings[key].wire.chain.n_masses, n_masses);
     }
   }
   set_key(harp, 127, -69.0);
-  harp_note_on(harp, 127, 100);
+  harp_note_on(harp, 0, 127, 100);
   assert_int_equal(harp->strings[127].wire.chain.n_masses, CHAIN_MAX_MASSES);
   harp_free(harp);
 }
@@ -162,12 +162,12 @@ static void a_key_without_a_pitch_is_silent(void** state) {
   static Sound sound;
   Harp* const harp = new_harp();
   set_key(harp, 60, (double)NAN);
-  harp_note_on(harp, 60, 127);
+  harp_note_on(harp, 0, 60, 127);
   run(harp, &sound, 0, FRAMES);
   assert_int_equal(harp_report(harp).n_strings, 0);
-  harp_note_off(harp, 60);
+  harp_note_off(harp, 0, 60);
   set_steps(harp, 1.0);
-  harp_note_on(harp, 60, 127);
+  harp_note_on(harp, 0, 60, 127);
   assert_int_equal(harp_report(harp).n_strings, 1);
   assert_true(cents_off(harp, 60, 440.0 * exp2(-0.75)) < 1e-5);
   harp_free(harp);
@@ -178,12 +178,12 @@ static void what_loses_its_pitch_is_choked(void** state) {
   (void)state;
   static Sound sound;
   Harp* const harp = new_harp();
-  harp_note_on(harp, 60, 127);
-  harp_note_on(harp, 64, 127);
+  harp_note_on(harp, 0, 60, 127);
+  harp_note_on(harp, 0, 64, 127);
   run(harp, &sound, 0, 2000);
   set_key(harp, 60, (double)NAN);
   assert_true(harp->strings[60].wire.chain.n_gliding == harp->n_gesture);
-  harp_note_on(harp, 60, 127);
+  harp_note_on(harp, 0, 60, 127);
   run(harp, &sound, 2000, 2000 + RATE / 8);
   assert_false(harp->strings[60].wire.is_awake);
   assert_true(harp->strings[64].wire.is_awake);
@@ -197,9 +197,9 @@ static void what_rings_glides_in_a_gesture(void** state) {
   double worst = 0.0;
   Harp* const harp = new_harp();
   for (uint32_t key = 40; key < 90; key += 7) {
-    harp_note_on(harp, key, 100);
+    harp_note_on(harp, 0, key, 100);
   }
-  harp_note_off(harp, 47);
+  harp_note_off(harp, 0, 47);
   run(harp, &sound, 0, 500);
   for (size_t s = 0; s < 6; ++s) {
     set_steps(harp, steps[s]);
@@ -207,7 +207,7 @@ static void what_rings_glides_in_a_gesture(void** state) {
       const Chain* const chain = &harp->strings[key].wire.chain;
       worst = fmax(worst, cents_off(harp, key, 440.0 * exp2(steps[s] * ((int)key - 69) / 12.0)));
       assert_int_equal(chain->n_gliding, harp->n_gesture);
-      assert_int_equal(harp->strings[key].damper, key == 47 ? DAMPER_ON : DAMPER_OFF);
+      assert_true(harp->strings[key].lift == (key == 47 ? 0.0 : 1.0));
     }
     run(harp, &sound, 500, 500 + harp->n_gesture);
     for (uint32_t key = 40; key < 90; key += 7) {
@@ -224,8 +224,8 @@ static void what_keeps_its_pitch_is_not_touched(void** state) {
   (void)state;
   Harp* const harp = new_harp();
   static Sound sound;
-  harp_note_on(harp, 60, 100);
-  harp_note_on(harp, 62, 100);
+  harp_note_on(harp, 0, 60, 100);
+  harp_note_on(harp, 0, 62, 100);
   run(harp, &sound, 0, 1000);
   set_key(harp, 62, -6.5);
   assert_int_equal(harp->strings[60].wire.chain.n_gliding, 0);
@@ -239,7 +239,7 @@ static void it_outlives_a_reset_and_a_patch(void** state) {
   set_key(harp, 60, 2.5);
   harp_reset(harp);
   harp_set_patch(harp, &plain, 0);
-  harp_note_on(harp, 60, 100);
+  harp_note_on(harp, 0, 60, 100);
   harp_all_sound_off(harp);
   assert_true(cents_off(harp, 60, 440.0 * exp2(2.5 / 12.0)) < 1e-5);
   harp_free(harp);

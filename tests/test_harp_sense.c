@@ -35,7 +35,7 @@ static double velocity_gain(uint32_t key) {
 
 static void play(Harp* harp, const Patch* patch, uint32_t key, float sound[2][FRAMES]) {
   harps_restart(harp, patch);
-  harp_note_on(harp, key, 100);
+  harp_note_on(harp, 0, key, 100);
   harps_run(harp, FRAMES, sound[0], sound[1]);
 }
 
@@ -45,8 +45,8 @@ play_switch(Harp* harp, Sense from, Sense to, uint32_t n_glide, float sound[2][F
   const Patch before = plain(from);
   const Patch after = plain(to);
   harps_restart(harp, &before);
-  harp_note_on(harp, 45, 100);
-  harp_note_on(harp, 57, 100);
+  harp_note_on(harp, 0, 45, 100);
+  harp_note_on(harp, 0, 57, 100);
   harps_run(harp, SWITCH, sound[0], sound[1]);
   harp_set_patch(harp, &after, n_glide);
   harps_run(harp, FRAMES - SWITCH, sound[0] + SWITCH, sound[1] + SWITCH);
@@ -95,7 +95,7 @@ static void force_is_where_the_masses_at_the_ends_are(void** state) {
       patch.pickup = 0.25 * k;
       patch.spread = k % 2 ? 0.3 : 0.0;
       harps_restart(harp, &patch);
-      harp_note_on(harp, key, 127);
+      harp_note_on(harp, 0, key, 127);
       for (int n = 0; n < 500; ++n) {
         harp_run(harp, 1, &left, &right);
         worst = fmax(worst, fabs((double)left - end_of(harp, key, false)));
@@ -169,10 +169,10 @@ static void a_new_mesh_makes_no_click(void** state) {
     Harp* const harp = harps_new(RATE, &patch);
     for (uint32_t key = 45; key <= 93; key += 3) {
       harps_restart(harp, &patch);
-      harp_note_on(harp, key, 100);
+      harp_note_on(harp, 0, key, 100);
       const uint32_t n_masses = harp_report(harp).n_masses;
       harps_run(harp, SWITCH, sounds[0][0], sounds[0][1]);
-      harp_bend(harp, 7.0);
+      harp_bend(harp, 0, 7.0);
       assert_true(harp_report(harp).n_masses < n_masses);
       harps_run(harp, SWITCH, sounds[0][0] + SWITCH, sounds[0][1] + SWITCH);
       const double own = largest_step(sounds[0], SWITCH - 2000, SWITCH);

@@ -88,7 +88,7 @@ static void turn(Sweep* sweep, int what, double way, uint32_t block) {
     harp_set_patch(sweep->harp, &patch, block > shortest ? block : shortest);
   }
   if (what == SWEEP_BEND || what == SWEEP_ALL) {
-    harp_bend(sweep->harp, 4.0 * way - 2.0);
+    harp_bend(sweep->harp, 0, 4.0 * way - 2.0);
   }
 }
 
@@ -108,7 +108,7 @@ static void run_block(Sweep* sweep, uint32_t n_frames) {
 /* Everything falls asleep, and what sleeps is silent. */
 static void release(Sweep* sweep) {
   double n_left = MOST_FRAMES + 14.0 * RELEASE_S * sweep->rate_hz;
-  harp_all_notes_off(sweep->harp);
+  harp_all_notes_off(sweep->harp, 0);
   while (harp_report(sweep->harp).n_strings > 0) {
     run_block(sweep, MOST_BLOCK);
     n_left -= MOST_BLOCK;
@@ -128,12 +128,12 @@ static double play(Sweep* sweep, int what, Shape shape, const Pace* pace) {
   turn(sweep, SWEEP_NOTHING, 0.0, pace->block);
   sweep->peak = 0.0;
   for (uint32_t i = 0; i < N_KEYS; ++i) {
-    harp_note_on(sweep->harp, LOWEST_KEY + KEY_STEP * i, 127);
+    harp_note_on(sweep->harp, 0, LOWEST_KEY + KEY_STEP * i, 127);
   }
   for (uint32_t b = 0; b < n_blocks; ++b) {
     turn(sweep, what, way_at(sweep, shape, b, pace->block), pace->block);
     if (b % per_strike == per_strike - 1) {
-      harp_note_on(sweep->harp, LOWEST_KEY + KEY_STEP * (b / per_strike % N_KEYS), 60);
+      harp_note_on(sweep->harp, 0, LOWEST_KEY + KEY_STEP * (b / per_strike % N_KEYS), 60);
     }
     run_block(sweep, pace->block);
   }

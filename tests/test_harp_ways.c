@@ -41,19 +41,19 @@ static void gesture(Harp* harp, Random* random) {
   const double bend = random_between(random, -2.0, 2.0);
   const uint32_t choice = random_below(random, 16);
   if (choice < 7) {
-    harp_note_on(harp, key, 1 + random_below(random, random_below(random, 2) ? 127 : 3));
+    harp_note_on(harp, 0, key, 1 + random_below(random, random_below(random, 2) ? 127 : 3));
   } else if (choice < 11) {
-    harp_all_notes_off(harp);
+    harp_all_notes_off(harp, 0);
   } else if (choice == 11) {
-    harp_bend(harp, bend);
+    harp_bend(harp, 0, bend);
   } else if (choice == 12) {
     harp_set_patch(harp, &patch, n_glide);
   } else if (choice == 13) {
-    harp_pedal(harp, bend > 1.0);
+    harp_pedal(harp, 0, bend > 1.0 ? 1.0 : 0.0);
   } else if (choice == 14) {
     harp_all_sound_off(harp);
   } else {
-    harp_note_off(harp, key);
+    harp_note_off(harp, 0, key);
   }
 }
 
@@ -100,9 +100,9 @@ static void cutting_into_calls_does_not_change_a_bit(void** state) {
 /* One note and its end, after `n_before` frames. */
 static void play_late(Harp* harp, size_t n_before, float* l, float* r) {
   harps_run(harp, n_before, l, r);
-  harp_note_on(harp, 50, 100);
+  harp_note_on(harp, 0, 50, 100);
   harps_run(harp, RATE / 2, l, r);
-  harp_note_off(harp, 50);
+  harp_note_off(harp, 0, 50);
   harps_run(harp, RATE / 2, l + RATE / 2, r + RATE / 2);
 }
 
@@ -119,7 +119,7 @@ static void a_keys_sound_does_not_depend_on_when_it_is_played(void** state) {
     assert_memory_equal(right, other[1], RATE * sizeof(float));
     /* Nor on what was bowed, and has died away. */
     harps_restart(harp, &bow);
-    harp_note_on(harp, 60, 127);
+    harp_note_on(harp, 0, 60, 127);
     harps_run(harp, 10000, NULL, NULL);
     harp_all_sound_off(harp);
     harps_run(harp, RATE, NULL, NULL);
@@ -140,7 +140,7 @@ static void nothing_stands_still_in_what_is_heard(void** state) {
     Harp* const harp = harps_new(RATE, &patch);
     double sums[2] = {0.0};
     for (size_t k = 0; k < sizeof(chord) / sizeof(chord[0]); ++k) {
-      harp_note_on(harp, chord[k], 127);
+      harp_note_on(harp, 0, chord[k], 127);
     }
     harps_run(harp, MOST, left, right);
     assert_true(measure_rms(left, MOST) > 0.01);

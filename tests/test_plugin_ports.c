@@ -34,13 +34,15 @@ static const Pin pinned[] = {
      1024.0f, 128.0f},
     {"release", PIN_IN, PIN_VALUE, NULL, PIN_LOGARITHMIC, 0.005f, 10.0f, 0.1f},
     {"tuning", PIN_IN, PIN_VALUE, NULL, 0, 400.0f, 480.0f, 440.0f},
-    {"sounding", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 128.0f, 0.0f},
-    {"mass_count", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 131072.0f, 0.0f},
+    {"sounding", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 160.0f, 0.0f},
+    {"mass_count", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 163840.0f, 0.0f},
     {"headroom", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 1.0f},
     {"partials", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 2.0f},
     {"exciter", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 0.0f},
     {"sense", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 0.0f},
     {"limiter", PIN_IN, PIN_VALUE, NULL, PIN_TOGGLED, 0.0f, 1.0f, 1.0f},
+    {"resonance", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
+    {"vibrato_rate", PIN_IN, PIN_VALUE, NULL, PIN_LOGARITHMIC, 0.5f, 12.0f, 5.5f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };

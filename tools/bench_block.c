@@ -54,7 +54,7 @@ static void jump(Harp* harp) {
 
 static void play(Harp* harp, uint32_t first, uint32_t n_keys, uint32_t step) {
   for (uint32_t i = 0; i < n_keys; ++i) {
-    harp_note_on(harp, first + i * step, 100);
+    harp_note_on(harp, 0, first + i * step, 100);
   }
 }
 
@@ -67,10 +67,10 @@ static void prepare(Harp* harp, BenchGesture gesture, uint32_t max_masses) {
   if (gesture == BENCH_TEN_KEYS) {
     return;
   }
-  harp_pedal(harp, gesture == BENCH_PEDAL);
+  harp_pedal(harp, 0, gesture == BENCH_PEDAL ? 1.0 : 0.0);
   play(harp, LOWEST_KEY, N_KEYS, 1);
   if (gesture == BENCH_PEDAL) {
-    harp_all_notes_off(harp);
+    harp_all_notes_off(harp, 0);
   }
 }
 
@@ -84,17 +84,17 @@ static void act(Harp* harp, BenchGesture gesture, uint32_t i) {
     break;
   case BENCH_PEDAL:
     if (i == 0) {
-      harp_pedal(harp, false);
+      harp_pedal(harp, 0, 0.0);
     }
     break;
   case BENCH_BEND:
     if (i == 0) {
-      harp_bend(harp, 1.0);
+      harp_bend(harp, 0, 1.0);
     }
     break;
   case BENCH_WHEEL:
     if (i < WHEEL_BLOCKS) {
-      harp_bend(harp, 2.0 * (i + 1) / WHEEL_BLOCKS);
+      harp_bend(harp, 0, 2.0 * (i + 1) / WHEEL_BLOCKS);
     }
     break;
   case BENCH_JUMP:

@@ -59,7 +59,7 @@ static bool count_harp(bool is_asleep, uint32_t n_keys, uint32_t n_frames) {
   }
   harp_set_patch(harp, &patch, 0);
   for (uint32_t i = 0; i < n_keys; ++i) {
-    harp_note_on(harp, (LOWEST_KEY + i) % HARP_KEYS, 100);
+    harp_note_on(harp, 0, (LOWEST_KEY + i) % HARP_KEYS, 100);
   }
   if (is_asleep) {
     harp_all_sound_off(harp);

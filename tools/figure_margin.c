@@ -46,7 +46,7 @@ static HarpString string_of(const Patch* patch, uint32_t key, void* memory) {
   const Pluck pluck = {patch->pluck, patch->hardness, HARP_NOTE_PEAK};
   HarpString string;
   harp_string_init(&string, RATE_HZ, key, memory, CHAIN_MAX_MASSES);
-  harp_string_play(&string, patch, 0.0, pluck, 0);
+  harp_string_play(&string, patch, pluck, 0);
   return string;
 }
 
