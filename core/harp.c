@@ -14,7 +14,7 @@ static const double VELOCITY_HARDNESS = 0.25;
 static const double VELOCITY_NEUTRAL = 0.75;
 
 /* What brightness does to hardness, and the soft pedal to it and to loudness. */
-static const double BRIGHTNESS_HARDNESS = 0.3;
+static const double BRIGHTNESS_HARDNESS = 0.4;
 static const double SOFT_HARDNESS = -0.2;
 static const double SOFT_GAIN = 0.6;
 
