@@ -26,6 +26,13 @@ static void every_preset_says_what_it_is_and_is_in_range(void** state) {
   presets_check_all(open_host, LEAST_PRESETS);
 }
 
+static void banks_and_programs_are_numbered_without_gaps(void** state) {
+  (void)state;
+  Host* const host = open_host();
+  presets_check_places(host);
+  host_free(host);
+}
+
 /* All open strings of its own tuning. */
 static Sound strum(Host* host, uint32_t preset, uint32_t velocity) {
   static const char* const strings[] = {"string1", "string2", "string3",
@@ -91,6 +98,7 @@ static void no_two_presets_sound_alike(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_preset_says_what_it_is_and_is_in_range),
+      cmocka_unit_test(banks_and_programs_are_numbered_without_gaps),
       cmocka_unit_test(presets_are_about_as_loud),
       cmocka_unit_test(no_two_presets_sound_alike),
   };
