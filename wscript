@@ -7,6 +7,7 @@ Sources are found by where they lie, so that a new one needs no line here:
     plugin/*.c         the plugin, hooke.lv2/hooke.so, and a static library for the tests of its parts
     ttl/, presets/     the plugin's descriptions and presets, beside it
     tools/main.c       the program `hooke`; the other tools/*.c are a library which the tests share
+    tools/make_*.c     a program each, which makes a part of the plugin while that is built
     tests/test_*.c     a test program each; the other tests/*.c are linked into all of them
     tests/plant_*.c    a library each, built as the plugin is, with a fault that a test has to find
     tests/test_*.sh    run as tests too
@@ -180,7 +181,7 @@ def build_bundle(bld):
     env.cshlib_PATTERN = '%s.so'
     sources = bld.path.ant_glob('plugin/*.c')
     if sources:
-        bld.shlib(source=sources, target='hooke.lv2/hooke', name='hooke_plugin', env=env, install_path=bundle,
+        bld.shlib(source=sources + [make_programs(bld)], target='hooke.lv2/hooke', name='hooke_plugin', env=env, install_path=bundle,
                   use='hooke_core LV2 M', linkflags=bld.env.PLUGIN_LINKFLAGS)
     library(bld, 'hooke_parts', sources, use='hooke_core LV2 M')
     for node in bld.path.ant_glob(['ttl/*.ttl', 'presets/*.ttl']):
@@ -190,10 +191,22 @@ def build_bundle(bld):
             LIB_EXT='.so')
 
 
+# The presets as C, made from the bundle as it is built.
+def make_programs(bld):
+    maker = bld.bldnode.find_or_declare('make_programs')
+    bld.program(source='tools/make_programs.c', target=maker, use='LILV LV2', install_path=None)
+    turtle = [bld.bldnode.find_or_declare('hooke.lv2/' + node.name.replace('.in', ''))
+              for node in bld.path.ant_glob(['ttl/*.ttl', 'ttl/*.ttl.in', 'presets/*.ttl'])]
+    table = bld.bldnode.find_or_declare('plugin/programs_table.c')
+    bld(rule='"${SRC[0].abspath()}" "%s" "${TGT[0].abspath()}"' % turtle[0].parent.abspath(),
+        source=[maker] + turtle, target=table)
+    return table
+
+
 def build_tools(bld):
     defines = ['HOOKE_VERSION="%s"' % VERSION, 'HOOKE_LV2DIR="%s"' % bld.env.LV2DIR]
     use = 'hooke_analysis hooke_core LILV SNDFILE SMF LV2 M DL PTHREAD'
-    library(bld, 'hooke_tools', bld.path.ant_glob('tools/*.c', excl=['tools/main.c']), use=use, defines=defines)
+    library(bld, 'hooke_tools', bld.path.ant_glob('tools/*.c', excl=['tools/main.c', 'tools/make_*.c']), use=use, defines=defines)
     for node in bld.path.ant_glob('tools/main.c'):
         bld.program(source=[node], target='hooke', name='hooke_program', use='hooke_tools ' + use, defines=defines)
 

@@ -3,6 +3,9 @@
 #include "core/limiter.h"
 #include "plugin/denormals.h"
 #include "plugin/events.h"
+#include "plugin/outputs.h"
+#include "plugin/overlay_state.h"
+#include "plugin/port_request.h"
 #include "plugin/tuner.h"
 #include "plugin/tuner_state.h"
 
@@ -12,21 +15,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The shortest time in which a port's change takes effect [s]; else it takes the block. */
+/* The shortest time in which a port's change takes effect [s]; else it takes the block.  A program
+ * change takes just this, or what is heard would depend on the block that it is in. */
 static const double SHORTEST_GLIDE_S = 0.005;
 
 typedef struct {
   LV2_URID atom_Sequence;
   LV2_URID midi_MidiEvent;
   LV2_URID own; /* The kind's own events, if there are any */
+  OverlayUrids overlay;
 } Urids;
 
 typedef struct {
   const InstrumentKind* kind;
   double rate_hz;
+  uint32_t n_shortest; /* Frames of the shortest glide */
 
   /* Features */
   Urids urids;
+  const PortRequest* request; /* NULL: none is offered */
 
   /* Ports */
   void* ports[PORTS_MAX];
@@ -34,6 +41,8 @@ typedef struct {
   /* State */
   void* player;
   Tuner* tuner; /* NULL: it has none */
+  ProgramChoice choice;
+  Overlay overlay;
   Controls controls;
   bool is_fresh; /* Whether nothing has been played since activation: there is nothing to glide
                     from */
@@ -43,57 +52,55 @@ typedef struct {
   float right[INSTRUMENT_FRAMES];
 } Instrument;
 
-static Urids map_urids(const LV2_URID_Map* map, const char* own_uri) {
+static Urids map_urids(const LV2_URID_Map* map, const InstrumentKind* kind) {
   return (Urids){
       .atom_Sequence = map->map(map->handle, LV2_ATOM__Sequence),
       .midi_MidiEvent = map->map(map->handle, LV2_MIDI__MidiEvent),
-      .own = own_uri ? map->map(map->handle, own_uri) : 0,
+      .own = kind->event_uri ? map->map(map->handle, kind->event_uri) : 0,
+      .overlay = {map->map(map->handle, kind->overlay_uri),
+                  map->map(map->handle, LV2_ATOM__String)},
   };
 }
 
-/* A port that changed takes the whole block to get there, so that a host's stairs become slopes. */
-static void take_controls(Instrument* self, uint32_t n_frames) {
-  Controls controls = self->kind->read(self->ports);
+/* What the ports say, and the overlay in the place of some. */
+static Controls read_controls(Instrument* self) {
+  void* over[PORTS_MAX];
+  overlay_apply(&self->overlay, self->ports, over);
+  Controls controls = self->kind->read(over);
   controls.value[PORT_FREEWHEEL] = 0.0f; /* It sounds the same. */
-  if (!self->is_fresh && ports_are_same(&controls, &self->controls)) {
-    return;
-  }
-  const uint32_t n_shortest = (uint32_t)(SHORTEST_GLIDE_S * self->rate_hz) + 1;
-  const uint32_t n_glide = n_frames > n_shortest ? n_frames : n_shortest;
-  self->kind->set(self->player, &controls, self->is_fresh ? 0 : n_glide);
-  const bool is_muted = controls.value[PORT_ENABLED] < 0.5f;
+  return controls;
+}
+
+static void set_controls(Instrument* self, const Controls* controls, uint32_t n_glide) {
+  const uint32_t n = self->is_fresh ? 0 : n_glide;
+  self->kind->set(self->player, controls, n);
+  const bool is_muted = controls->value[PORT_ENABLED] < 0.5f;
   if (is_muted && !self->is_muted) {
     self->kind->silence(self->player);
   }
   self->is_muted = is_muted;
-  limiter_turn(&self->limiter, controls.value[self->kind->limiter] >= 0.5f,
-               self->is_fresh ? 0 : n_glide);
-  self->controls = controls;
-  self->is_fresh = false;
+  limiter_turn(&self->limiter, controls->value[self->kind->limiter] >= 0.5f, n);
+  self->controls = *controls;
 }
 
-static void write_frames(float* out, const float* from, uint32_t n_frames) {
-  if (out) {
-    memcpy(out, from, n_frames * sizeof(float));
+/* A port that changed takes the whole block to get there, so that a host's stairs become slopes. */
+static void take_controls(Instrument* self, uint32_t n_frames) {
+  const Controls controls = read_controls(self);
+  if (self->is_fresh || !ports_are_same(&controls, &self->controls)) {
+    set_controls(self, &controls, n_frames > self->n_shortest ? n_frames : self->n_shortest);
   }
 }
 
-/* Run from frame `from` to frame `to` of the block.  A host may connect neither side, or one buffer
- * to both. */
+/* Run from frame `from` to frame `to` of the block. */
 static void render(Instrument* self, uint32_t from, uint32_t to) {
   float* const left = self->ports[PORT_OUT_LEFT];
   float* const right = self->ports[PORT_OUT_RIGHT];
+  self->is_fresh = self->is_fresh && from == to;
   while (from < to) {
     const uint32_t n = to - from < INSTRUMENT_FRAMES ? to - from : INSTRUMENT_FRAMES;
     self->kind->run(self->player, n, self->left, self->right);
     limiter_run(&self->limiter, n, self->left, self->right);
-    if (left && left == right) {
-      for (uint32_t i = 0; i < n; ++i) {
-        self->left[i] = self->right[i] = 0.5f * (self->left[i] + self->right[i]);
-      }
-    }
-    write_frames(left ? left + from : NULL, self->left, n);
-    write_frames(right ? right + from : NULL, self->right, n);
+    outputs_write(left, right, from, n, self->left, self->right);
     from += n;
   }
 }
@@ -112,6 +119,35 @@ static void write_report(Instrument* self) {
   write_value(self, self->kind->meters + 2, report.headroom);
 }
 
+static void play_program(Instrument* self, const float* values) {
+  const ProgramTable* const programs = self->kind->programs;
+  if (!values) {
+    return;
+  }
+  overlay_put(&self->overlay, self->ports, programs->n_ports, programs->ports, values);
+  const Controls controls = read_controls(self);
+  if (!ports_are_same(&controls, &self->controls)) {
+    set_controls(self, &controls, self->n_shortest);
+  }
+  port_request_move(self->request, self->ports, programs->n_ports, programs->ports, values);
+}
+
+/* What chooses a program is no playing yet. */
+static void play_midi(Instrument* self, const Event* event) {
+  const MidiMessage message = midi_read(event->body, event->size);
+  if (programs_are_chosen_by(&message)) {
+    play_program(self, programs_hear(&self->choice, self->kind->programs, &message));
+  } else {
+    self->is_fresh = false;
+    self->kind->play_midi(self->player, event->body, event->size, self->is_muted);
+  }
+}
+
+static void play_own(Instrument* self, const Event* event) {
+  self->is_fresh = false;
+  self->kind->play_event(self->player, event->body, event->size, self->is_muted);
+}
+
 /* Events split the block. */
 static void play_block(Instrument* self, const void* control, uint32_t n_frames) {
   uint32_t done = 0;
@@ -124,8 +160,7 @@ static void play_block(Instrument* self, const void* control, uint32_t n_frames)
       const uint32_t frame = events_frame(&event, done, n_frames);
       render(self, done, frame);
       done = frame;
-      (is_midi ? self->kind->play_midi : self->kind->play_event)(self->player, event.body,
-                                                                 event.size, self->is_muted);
+      (is_midi ? play_midi : play_own)(self, &event);
     } else if (self->tuner) {
       tuner_hear(self->tuner, event.type, event.body, event.size);
     }
@@ -173,9 +208,11 @@ static LV2_State_Status save(LV2_Handle handle,
                              LV2_State_Handle state,
                              uint32_t flags,
                              const LV2_Feature* const* features) {
-  const Instrument* const self = handle;
+  Instrument* const self = handle;
   (void)flags;
-  return tuner_state_save(self->tuner, store, state, features);
+  const LV2_State_Status status =
+      overlay_state_save(&self->overlay, &self->urids.overlay, store, state);
+  return status || !self->tuner ? status : tuner_state_save(self->tuner, store, state, features);
 }
 
 static LV2_State_Status restore(LV2_Handle handle,
@@ -183,9 +220,13 @@ static LV2_State_Status restore(LV2_Handle handle,
                                 LV2_State_Handle state,
                                 uint32_t flags,
                                 const LV2_Feature* const* features) {
-  const Instrument* const self = handle;
+  Instrument* const self = handle;
   (void)flags;
-  return tuner_state_restore(self->tuner, retrieve, state, features);
+  const LV2_State_Status status = overlay_state_restore(&self->overlay, &self->urids.overlay,
+                                                        self->kind->programs, retrieve, state);
+  const LV2_State_Status of_tuner =
+      self->tuner ? tuner_state_restore(self->tuner, retrieve, state, features) : status;
+  return status ? status : of_tuner;
 }
 
 LV2_Handle
@@ -198,13 +239,15 @@ instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* co
   self->kind = kind;
   self->rate_hz = rate_hz;
   limiter_init(&self->limiter, rate_hz);
-  self->urids = map_urids(map, kind->event_uri);
+  self->urids = map_urids(map, kind);
+  self->request = lv2_features_data(features, PORT_REQUEST_URI);
   self->player = kind->new (rate_hz);
   self->tuner = kind->tuner ? tuner_new(map, features, kind->tuner) : NULL;
   if (!self->player || (kind->tuner && !self->tuner)) {
     free_instrument(self);
     return NULL;
   }
+  self->n_shortest = (uint32_t)(SHORTEST_GLIDE_S * rate_hz) + 1;
   return self;
 }
 
@@ -219,6 +262,7 @@ void instrument_activate(LV2_Handle handle) {
   Instrument* const self = handle;
   self->kind->reset(self->player);
   limiter_init(&self->limiter, self->rate_hz);
+  self->choice = (ProgramChoice){{0}};
   self->is_fresh = true;
 }
 
@@ -228,8 +272,10 @@ void instrument_run(LV2_Handle handle, uint32_t n_frames) {
   LV2_Atom_Sequence* const notify = self->ports[PORT_NOTIFY];
   const uint32_t room = events_write_none(notify, self->urids.atom_Sequence);
   take_scale(self);
+  overlay_take(&self->overlay);
   take_controls(self, n_frames);
   play_block(self, self->ports[PORT_CONTROL], n_frames);
+  self->is_fresh = false;
   write_report(self);
   if (self->tuner) {
     tuner_tell(self->tuner, notify, room);
@@ -241,9 +287,12 @@ void instrument_cleanup(LV2_Handle handle) {
   free_instrument(handle);
 }
 
+const void* instrument_extension(const char* uri) {
+  static const LV2_State_Interface state = {.save = save, .restore = restore};
+  return strcmp(uri, LV2_STATE__interface) ? NULL : &state;
+}
+
 const void* instrument_tuner_extension(const char* uri) {
   static const LV2_Worker_Interface worker = {.work = work, .work_response = work_response};
-  static const LV2_State_Interface state = {.save = save, .restore = restore};
-  const void* const work_or_none = strcmp(uri, LV2_WORKER__interface) ? NULL : &worker;
-  return strcmp(uri, LV2_STATE__interface) ? work_or_none : &state;
+  return strcmp(uri, LV2_WORKER__interface) ? instrument_extension(uri) : &worker;
 }

@@ -131,16 +131,17 @@ static OneEvent one_event(Host* host, uint32_t frame, unsigned status, unsigned 
       .head = {.atom = {sizeof(OneEvent) - sizeof(LV2_Atom),
                         host_map(host, "http://lv2plug.in/ns/ext/atom#Sequence")}},
       .event = {.time.frames = frame,
-                .body = {3, host_map(host, "http://lv2plug.in/ns/ext/midi#MidiEvent")}},
+                .body = {status == 0xC0 ? 2 : 3,
+                         host_map(host, "http://lv2plug.in/ns/ext/midi#MidiEvent")}},
       .bytes = {(uint8_t)status, (uint8_t)a, (uint8_t)b},
   };
 }
 
 /* A run with one random message, and now and then a port moved, anywhere in its range. */
 static void run_something(Host* host, Watched plugin, Random* random) {
-  static const unsigned statuses[] = {0x90, 0x90, 0x90, 0x80, 0xB0, 0xE0, 0xF0};
+  static const unsigned statuses[] = {0x90, 0x90, 0x90, 0x80, 0xB0, 0xC0, 0xE0, 0xF0};
   static const unsigned controllers[] = {64, 64, 120, 121, 123, 1, 6, 38, 67, 100, 101};
-  const unsigned status = statuses[random_below(random, 7)];
+  const unsigned status = statuses[random_below(random, 8)];
   const unsigned a =
       status == 0xB0 ? controllers[random_below(random, 11)] : random_below(random, 128);
   OneEvent event =
