@@ -1,10 +1,11 @@
 #include "plugin/guitar_midi.h"
 
 #include "plugin/midi.h"
+#include "plugin/registered.h"
 
 #include <math.h>
 
-enum { NO_PARAMETER = 0x3FFF, BEND_RANGE = 0, USUAL_SEMITONES = 2 };
+enum { USUAL_SEMITONES = 2 };
 
 static const double VIBRATO_SEMITONES = 0.5;
 
@@ -23,7 +24,7 @@ static void set_wheel(GuitarMidi* midi, uint32_t channel, double wheel) {
  * turned stays where it is, and bends by the new range. */
 static void enter_data(GuitarMidi* midi, uint32_t channel, uint32_t controller, uint32_t value) {
   GuitarChannel* const c = &midi->channels[channel];
-  if (c->parameter == BEND_RANGE) {
+  if (c->parameter == REGISTERED_BEND_RANGE) {
     const bool is_upper = controller == MIDI_DATA_UPPER;
     c->semitones = is_upper ? value : c->semitones;
     c->cents = is_upper ? 0 : value;
@@ -35,22 +36,13 @@ static void reset_controllers(GuitarMidi* midi, uint32_t channel) {
   guitarist_pedal(midi->guitarist, channel, false);
   guitarist_vibrato(midi->guitarist, channel, 0.0);
   guitar_palm(midi->guitar, 0.0);
-  midi->channels[channel].parameter = NO_PARAMETER;
+  midi->channels[channel].parameter = REGISTERED_NONE;
   set_wheel(midi, channel, 0.0);
-}
-
-static void choose_parameter(GuitarChannel* channel, uint32_t controller, uint32_t value) {
-  if (controller == MIDI_PARAMETER_UPPER) {
-    channel->parameter = value << 7 | (channel->parameter & 0x7F);
-  } else if (controller == MIDI_PARAMETER_LOWER) {
-    channel->parameter = (channel->parameter & ~0x7Fu) | value;
-  } else {
-    channel->parameter = NO_PARAMETER; /* Data entry is for one that is not registered. */
-  }
 }
 
 static void play_controller(GuitarMidi* midi, const MidiMessage* message) {
   const uint32_t channel = message->channel;
+  uint32_t* const chosen = &midi->channels[channel].parameter;
   switch (message->number) {
   case MIDI_VIBRATO:
     guitarist_vibrato(midi->guitarist, channel, VIBRATO_SEMITONES * message->value / 127.0);
@@ -69,7 +61,7 @@ static void play_controller(GuitarMidi* midi, const MidiMessage* message) {
   case MIDI_UNREGISTERED_UPPER:
   case MIDI_PARAMETER_LOWER:
   case MIDI_PARAMETER_UPPER:
-    choose_parameter(&midi->channels[channel], message->number, message->value);
+    *chosen = registered_choose(*chosen, message->number, message->value);
     break;
   case MIDI_ALL_SOUND_OFF:
     guitarist_all_sound_off(midi->guitarist);
@@ -87,7 +79,7 @@ static void play_controller(GuitarMidi* midi, const MidiMessage* message) {
 
 void guitar_midi_reset(GuitarMidi* midi) {
   for (uint32_t i = 0; i < GUITARIST_CHANNELS; ++i) {
-    midi->channels[i] = (GuitarChannel){.semitones = USUAL_SEMITONES, .parameter = NO_PARAMETER};
+    midi->channels[i] = (GuitarChannel){.semitones = USUAL_SEMITONES, .parameter = REGISTERED_NONE};
   }
 }
 

@@ -6,44 +6,72 @@
 #include "plugin/strings_ports.h"
 
 #include <stddef.h>
+#include <stdlib.h>
 
 #define STRINGS_URI "urn:hooke:strings"
 
-static void* new_player(double rate_hz) {
-  return harp_new(rate_hz);
-}
+/* A harp, and who tells it what MIDI says. */
+typedef struct {
+  Harp* harp;
+  StringsMidi midi;
+} Player;
 
 static void free_player(void* player) {
-  harp_free(player);
+  Player* const self = player;
+  harp_free(self->harp);
+  free(self);
+}
+
+static void* new_player(double rate_hz) {
+  Player* const self = calloc(1, sizeof(Player));
+  if (!self) {
+    return NULL;
+  }
+  self->harp = harp_new(rate_hz);
+  if (!self->harp) {
+    free_player(self);
+    return NULL;
+  }
+  self->midi.hands.harp = self->harp;
+  strings_midi_reset(&self->midi);
+  return self;
 }
 
 static void reset(void* player) {
-  harp_reset(player);
+  Player* const self = player;
+  harp_reset(self->harp);
+  strings_midi_reset(&self->midi);
 }
 
 static void set(void* player, const Controls* controls, uint32_t n_frames) {
+  const Player* const self = player;
   const Patch patch = strings_ports_patch(controls);
-  harp_set_patch(player, &patch, n_frames);
+  harp_set_patch(self->harp, &patch, n_frames);
 }
 
 static void silence(void* player) {
-  harp_all_sound_off(player);
+  Player* const self = player;
+  strings_midi_silence(&self->midi);
 }
 
 static void play_midi(void* player, const uint8_t* bytes, uint32_t n_bytes, bool is_muted) {
-  strings_midi_play(player, bytes, n_bytes, is_muted);
+  Player* const self = player;
+  strings_midi_play(&self->midi, bytes, n_bytes, is_muted);
 }
 
 static void run(void* player, uint32_t n_frames, float* left, float* right) {
-  harp_run(player, n_frames, left, right);
+  const Player* const self = player;
+  harp_run(self->harp, n_frames, left, right);
 }
 
 static void set_scale(void* player, const double semitones[SCALE_KEYS]) {
-  harp_set_scale(player, semitones);
+  const Player* const self = player;
+  harp_set_scale(self->harp, semitones);
 }
 
 static InstrumentReport report(const void* player) {
-  const HarpReport harp = harp_report(player);
+  const Player* const self = player;
+  const HarpReport harp = harp_report(self->harp);
   return (InstrumentReport){harp.n_strings, harp.n_masses, harp.headroom};
 }
 

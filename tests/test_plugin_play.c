@@ -123,8 +123,7 @@ static void velocity_nought_is_note_off(void** state) {
   host_free(host);
 }
 
-/* Held by the least value that is down, and lifted at three seconds by `controller`, with the most
- * that is up. */
+/* Held by the least value that is all the way down, and lifted at three seconds by `controller`. */
 static void check_pedal(uint32_t controller, double bend_after, double bend, const char* what) {
   Host* const host = open_plain();
   Sound sound = sound_new(5 * RATE);
@@ -137,7 +136,7 @@ static void check_pedal(uint32_t controller, double bend_after, double bend, con
     strings_bend(host, 200, bend);
     strings_note_on(host, 300, key, 100);
     strings_note_off(host, RATE, key);
-    strings_controller(host, 3 * RATE, controller, 63);
+    strings_controller(host, 3 * RATE, controller, 0);
     strings_run(host, &sound, 0, sound.n_frames, BLOCK);
     held = strings_worse(held, measure(&sound, RATE, 3 * RATE, strings_tone(host, key, bend)));
     lifted = strings_worse(lifted, measure(&sound, 3 * RATE, sound.n_frames,
@@ -169,7 +168,7 @@ static void the_pedal_lets_go_of_what_is_up_alone(void** state) {
   strings_note_on(host, 0, 60, 100);
   strings_note_off(host, 100, 60);
   strings_note_on(host, 200, 60, 100);
-  strings_controller(host, 300, STRINGS_PEDAL, 63);
+  strings_controller(host, 300, STRINGS_PEDAL, 0);
   strings_run(host, &sound, 0, sound.n_frames, BLOCK);
   strings_assert_exact("down again before the pedal went up",
                        measure(&sound, 300, sound.n_frames, strings_tone(host, 60, 0.0)));
