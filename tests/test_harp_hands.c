@@ -102,6 +102,26 @@ static void one_hand_has_one_string_at_a_key(void** state) {
   harp_note_on(harp, 2, KEY, 100);
   harp_note_on(harp, 3, KEY, 100);
   assert_int_equal(harp_report(harp).n_strings, 2);
+  assert_int_equal(harp->strings[KEY].hand, 2);
+  harp_free(harp);
+}
+
+static void a_guest_that_rings_is_left_alone(void** state) {
+  (void)state;
+  Harp* const harp = new_harp();
+  for (uint32_t key = KEY; key < KEY + 3; ++key) {
+    harp_pedal(harp, 3, 1.0);
+    harp_note_on(harp, 2, key, 100);
+    harp_note_on(harp, 3, key, 100);
+    harp_note_off(harp, 3, key);
+  }
+  assert_int_equal(harp_report(harp).n_strings, 6);
+  for (uint32_t key = KEY; key < KEY + 3; ++key) {
+    check_pitch(harp, guest_at(harp, key), 0.0);
+  }
+  /* But by the same key it is played again. */
+  harp_note_on(harp, 3, KEY + 1, 100);
+  assert_int_equal(harp_report(harp).n_strings, 6);
   harp_free(harp);
 }
 
@@ -245,6 +265,19 @@ static void sostenuto_holds_what_was_down(void** state) {
   check_decay(harp, later, RELEASE_S);
   harp_sostenuto(harp, 0, false);
   check_decay(harp, caught, RELEASE_S);
+  /* What another hand takes over is that hand's. */
+  harp_note_on(harp, 0, KEY, 100);
+  harp_sostenuto(harp, 0, true);
+  harp_note_off(harp, 0, KEY);
+  harp_note_on(harp, 1, KEY, 100);
+  harp_note_off(harp, 1, KEY);
+  check_decay(harp, caught, RELEASE_S);
+  /* And all sound off lets the pedal up. */
+  harp_all_sound_off(harp);
+  harp_note_on(harp, 0, KEY, 100);
+  harp_sostenuto(harp, 0, true);
+  harp_note_off(harp, 0, KEY);
+  check_decay(harp, caught, open_s(KEY));
   harp_free(harp);
 }
 
@@ -316,6 +349,7 @@ int main(void) {
       cmocka_unit_test(two_hands_have_a_string_each_at_one_key),
       cmocka_unit_test(a_hand_lets_up_its_own_key_only),
       cmocka_unit_test(one_hand_has_one_string_at_a_key),
+      cmocka_unit_test(a_guest_that_rings_is_left_alone),
       cmocka_unit_test(a_key_that_is_up_is_taken_over),
       cmocka_unit_test(when_guests_run_out_no_string_is_stolen),
       cmocka_unit_test(a_guest_can_have_any_key_in_turn),
