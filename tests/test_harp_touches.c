@@ -202,18 +202,18 @@ static void a_vibrato_waits_for_notes(void** state) {
 /* Nor does it begin in the middle of the last one's. */
 static void a_vibrato_begins_with_its_note(void** state) {
   (void)state;
-  const Patch patch = patch_of(0);
+  Patch patch = patch_of(0);
+  patch.damping_per_s = 50.0;
   Harp* const harp = harps_new(RATE, &patch);
   harp_vibrato(harp, 0, 0.3);
-  harp_note_on(harp, 0, KEY, 100);
-  harps_run(harp, RATE, left, NULL);
-  for (int again = 0; again < 2; ++again) {
-    harp_all_sound_off(harp);
-    harps_run(harp, RATE / 2 + 777, NULL, NULL);
-    assert_int_equal(harp_report(harp).n_strings, 0);
+  for (int again = 0; again < 3; ++again) {
     harp_note_on(harp, 0, KEY, 100);
-    harps_run(harp, RATE, other, NULL);
-    assert_memory_equal(left, other, RATE * sizeof(float));
+    harps_run(harp, RATE, again == 0 ? left : other, NULL);
+    assert_int_equal(harp_report(harp).n_strings, 0);
+    if (again > 0) {
+      assert_memory_equal(left, other, RATE * sizeof(float));
+    }
+    harps_run(harp, 777, NULL, NULL);
   }
   harp_free(harp);
 }
@@ -327,22 +327,26 @@ static void a_brighter_hand_plays_brighter_notes(void** state) {
   }
 }
 
+/* Where it would click most. */
 static void a_swell_is_a_gain_and_no_step(void** state) {
   (void)state;
   const Patch patch = patch_of(0);
   Harp* const harp = harps_new(RATE, &patch);
+  uint32_t at = RATE / 2;
   harp_note_on(harp, 0, KEY, 100);
   harps_run(harp, RATE, left, NULL);
+  for (uint32_t i = at; i < RATE / 2 + 500; ++i) {
+    at = fabsf(left[i]) > fabsf(left[at]) ? i : at;
+  }
   harps_restart(harp, &patch);
   harp_note_on(harp, 0, KEY, 100);
-  harps_run(harp, RATE / 2, other, NULL);
+  harps_run(harp, at, other, NULL);
   harp_swell(harp, 0.25);
-  harps_run(harp, RATE / 2, other + RATE / 2, NULL);
-  assert_memory_equal(left, other, RATE / 2 * sizeof(float));
-  const size_t n_left = RATE / 2 - 2;
-  assert_true(harps_largest_step(other + RATE / 2 - 2, n_left) <=
-              1.1 * harps_largest_step(left + RATE / 2 - 2, n_left));
-  for (uint32_t i = RATE / 2 + harp->n_gesture; i < RATE; ++i) {
+  harps_run(harp, RATE - at, other + at, NULL);
+  assert_memory_equal(left, other, at * sizeof(float));
+  assert_true(harps_largest_step(other + at, RATE - at) <=
+              harps_largest_step(left + at - 500, RATE - at));
+  for (uint32_t i = at + harp->n_gesture; i < RATE; ++i) {
     assert_true(other[i] == 0.25f * left[i]);
   }
   harp_free(harp);
