@@ -25,7 +25,6 @@ void hand_reset_controllers(Hand* hand) {
   hand->lift = 0.0;
   hand->softness = 0.0;
   hand->is_sostenuto = false;
-  hand->pressed = (HandKeys){{0, 0}};
 }
 
 void hand_enter(Hand* hand, uint32_t parameter, uint32_t controller, uint32_t value) {

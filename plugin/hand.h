@@ -37,8 +37,8 @@ typedef struct {
 /** A hand that has heard nothing. */
 void hand_reset(Hand* hand, uint32_t range_cents);
 
-/** What reset controllers says: wheel, vibrato, pressures and pedals at rest, and breath full.  The
- * wheel's range, both tunings and brightness stay, and so do keys. */
+/** What reset controllers says: wheel, vibrato, pressure and pedals at rest, and breath full.  The
+ * wheel's range, both tunings and brightness stay, and so do keys that are down or pressed. */
 void hand_reset_controllers(Hand* hand);
 
 /** Data entry for a registered parameter; one that no hand has is ignored. */

@@ -222,12 +222,11 @@ void strings_hands_reset_controllers(StringsHands* all, uint32_t hand) {
   tell_followers(all, hand, tell_everything);
 }
 
-/* The harp lifts keys and pedals itself. */
+/* The harp lifts keys and pedals itself.  Nothing tells it of a pedal again before that has moved.
+ */
 void strings_hands_silence(StringsHands* all) {
   for (uint32_t h = 0; h < ZONES_CHANNELS; ++h) {
     all->hands[h].down = (HandKeys){{0, 0}};
-    all->hands[h].lift = 0.0;
-    all->hands[h].is_sostenuto = false;
   }
   harp_all_sound_off(all->harp);
 }

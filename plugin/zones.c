@@ -13,7 +13,7 @@ void zones_set(Zones* zones, uint32_t leader, uint32_t n_members) {
   uint32_t* const n_other = is_lower ? &zones->n_upper : &zones->n_lower;
   *n_own = n_members;
   if (n_members > 0) {
-    *n_other = n_members < BETWEEN_LEADERS ? least(*n_other, BETWEEN_LEADERS - n_members) : 0;
+    *n_other = least(*n_other, BETWEEN_LEADERS - least(n_members, BETWEEN_LEADERS));
   }
 }
 

@@ -234,22 +234,6 @@ static void reset_controllers_leaves_volume_brightness_ranges_and_tunings(void**
   player_free(&player);
 }
 
-/* The harp lifts them itself; nothing may put them down again. */
-static void pedals_are_up_after_all_sound_off(void** state) {
-  (void)state;
-  Player player = player_new();
-  control(&player, 1, CC_SUSTAIN, 127);
-  control(&player, 1, CC_SOSTENUTO, 127);
-  control(&player, 1, CC_SOUND_OFF, 0);
-  player_forget(&player);
-  zone(&player, 16, 3);
-  for (uint32_t channel = 1; channel <= 16; ++channel) {
-    assert_true(!(last(&player, FAKE_PEDAL, channel) > 0.0));
-    assert_true(!(last(&player, FAKE_SOSTENUTO, channel) > 0.0));
-  }
-  player_free(&player);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(keys_of_any_channel_are_the_first_hands),
@@ -269,7 +253,6 @@ int main(void) {
       cmocka_unit_test(after_a_reset_all_is_as_at_first),
       cmocka_unit_test(reset_controllers_puts_gestures_at_rest),
       cmocka_unit_test(reset_controllers_leaves_volume_brightness_ranges_and_tunings),
-      cmocka_unit_test(pedals_are_up_after_all_sound_off),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

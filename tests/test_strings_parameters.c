@@ -28,6 +28,8 @@ static void the_wheels_range_is_96_semitones_at_most(void** state) {
   assert_last(&player, FAKE_BEND, 1, -96.0);
   control(&player, 1, CC_DATA, 127);
   assert_last(&player, FAKE_BEND, 1, -96.0);
+  control(&player, 1, CC_INCREMENT, 0);
+  assert_last(&player, FAKE_BEND, 1, -96.0);
   player_free(&player);
 }
 
@@ -88,6 +90,9 @@ static void steps_are_a_cent_a_semitone_or_the_least(void** state) {
   choose(&player, 1, 2);
   control(&player, 1, CC_DECREMENT, 0);
   assert_last(&player, FAKE_BEND, 1, -1.0 + 1.0 / 8192.0);
+  control(&player, 1, CC_INCREMENT, 0);
+  control(&player, 1, CC_INCREMENT, 0);
+  assert_last(&player, FAKE_BEND, 1, 1.0 + 1.0 / 8192.0);
   player_free(&player);
 }
 

@@ -184,6 +184,7 @@ static void brightness_adds_up(void** state) {
   control(&player, 1, CC_BRIGHTNESS, 127);
   assert_last(&player, FAKE_BRIGHTEN, 2, 1.0);
   control(&player, 2, CC_BRIGHTNESS, 0);
+  assert_last(&player, FAKE_BRIGHTEN, 2, 0.0);
   control(&player, 1, CC_BRIGHTNESS, 0);
   assert_last(&player, FAKE_BRIGHTEN, 2, -1.0);
   player_free(&player);

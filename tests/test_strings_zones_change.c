@@ -157,13 +157,17 @@ static void a_member_holds_on_while_a_key_is_down(void** state) {
   off(&player, 2, 60);
   wheel(&player, 2, 1000);
   on(&player, 2, 127);
+  on(&player, 2, 6);
   off(&player, 2, 127);
+  off(&player, 2, 6);
+  on(&player, 2, 102);
+  off(&player, 2, 102); /* 32 from one that stays */
   press(&player, 2, 100);
   assert_int_equal(count(&player, FAKE_LET_GO, 2), 0);
   off(&player, 2, 70);
   assert_int_equal(count(&player, FAKE_LET_GO, 2), 0);
   wheel(&player, 2, 0);
-  wheel(&player, 2, 5); /* It has nothing left. */
+  wheel(&player, 2, 5); /* Nothing is left. */
   on(&player, 2, 60);
   assert_int_equal(count(&player, FAKE_LET_GO, 2), 1);
   control(&player, 1, CC_NOTES_OFF, 0);
@@ -172,7 +176,6 @@ static void a_member_holds_on_while_a_key_is_down(void** state) {
   player_free(&player);
 }
 
-/* Its range moves its wheel too. */
 static void members_let_go_when_their_range_changes(void** state) {
   (void)state;
   Player player = player_new();
@@ -248,6 +251,33 @@ static void reset_controllers_is_the_whole_zones(void** state) {
   player_free(&player);
 }
 
+static void reset_controllers_is_of_all_channels_outside(void** state) {
+  (void)state;
+  Player player = player_new();
+  zone(&player, 1, 3);
+  choose(&player, 9, 0);
+  choose(&player, 2, 0);
+  control(&player, 12, CC_RESET, 0);
+  player_forget(&player);
+  control(&player, 9, CC_DATA, 7);
+  assert_nothing(&player);
+  control(&player, 2, CC_DATA, 7);
+  assert_int_equal(hands_that(&player, FAKE_BEND), 0xE);
+  player_free(&player);
+}
+
+/* The first channel is itself in a zone that it does not lead, and as all channels. */
+static void a_channel_is_in_one_place_at_a_time(void** state) {
+  static const Zones none = {0};
+  Zones zones = {0};
+  (void)state;
+  zones_set(&zones, ZONES_UPPER, ZONES_MOST_MEMBERS);
+  for (uint32_t channel = 0; channel < ZONES_CHANNELS; ++channel) {
+    assert_true(zones_agree(&zones, &zones, channel));
+    assert_false(zones_agree(&zones, &none, channel));
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_zone_that_is_set_up_puts_its_keys_up),
@@ -261,6 +291,8 @@ int main(void) {
       cmocka_unit_test(members_let_go_when_their_range_changes),
       cmocka_unit_test(leaders_and_channels_outside_never_let_go),
       cmocka_unit_test(reset_controllers_is_the_whole_zones),
+      cmocka_unit_test(reset_controllers_is_of_all_channels_outside),
+      cmocka_unit_test(a_channel_is_in_one_place_at_a_time),
       cmocka_unit_test(silence_forgets_keys_that_are_down),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
