@@ -97,6 +97,42 @@ static void what_the_pedal_holds_keeps_its_bend(void** state) {
   host_free(host);
 }
 
+/* What is left of a tuning would be heard as soon as the wheel moves. */
+static void a_restart_forgets_what_was_said(void** state) {
+  (void)state;
+  Host* const host = mpe_open();
+  Sound first = mpe_play(host, "tuned", 4.0, MPE_BLOCK);
+  Sound again = mpe_play(host, "tuned", 4.0, MPE_BLOCK);
+  assert_true(sound_is_same(&first, &again));
+  sound_free(&first);
+  sound_free(&again);
+  host_free(host);
+}
+
+/* What was down when all was choked is not; so the wheel is for the next note, not for the one that
+ * the pedal holds. */
+static void keys_are_up_once_the_plugin_was_off(void** state) {
+  (void)state;
+  Host* const host = mpe_open();
+  Sound sound = mpe_play(host, "zone", 0.5, MPE_BLOCK);
+  strings_midi(host, 0, 0x91, 60, 100);
+  strings_run(host, &sound, 0, MPE_BLOCK, MPE_BLOCK);
+  strings_set(host, "enabled", 0.0);
+  strings_run(host, &sound, 0, 20 * MPE_BLOCK, MPE_BLOCK);
+  strings_set(host, "enabled", 1.0);
+  strings_run(host, &sound, 0, MPE_BLOCK, MPE_BLOCK);
+  sound_free(&sound);
+  sound = sound_new(MPE_RATE);
+  strings_controller(host, 0, STRINGS_PEDAL, 127);
+  strings_midi(host, 1, 0x91, 62, 100);
+  strings_midi(host, 2, 0x81, 62, 64);
+  strings_midi(host, 3, 0xE1, 0, 80);
+  strings_run(host, &sound, 0, sound.n_frames, MPE_BLOCK);
+  strings_assert_exact("held", mpe_measure(&sound, 0.0, 1.0, strings_tone(host, 62, 0.0)));
+  sound_free(&sound);
+  host_free(host);
+}
+
 static void gestures_fall_on_their_frames_in_any_block(void** state) {
   static const uint32_t blocks[] = {1, 64, 333};
   (void)state;
@@ -136,6 +172,8 @@ int main(void) {
       cmocka_unit_test(members_bend_exactly_by_96_semitones),
       cmocka_unit_test(ranges_and_tunings_are_exact),
       cmocka_unit_test(what_the_pedal_holds_keeps_its_bend),
+      cmocka_unit_test(a_restart_forgets_what_was_said),
+      cmocka_unit_test(keys_are_up_once_the_plugin_was_off),
       cmocka_unit_test(gestures_fall_on_their_frames_in_any_block),
       cmocka_unit_test(hooke_render_plays_the_same),
   };

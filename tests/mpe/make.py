@@ -71,6 +71,8 @@ SONGS = {
     # What is held by the pedal keeps its bend while its channel plays on.
     'held': zone(0, 1, 15) + control(0, 1, SUSTAIN, 127) + wheel(0, 2, 256) + on(0.0625, 2, 50) + off(0.5, 2, 50)
     + wheel(0.75, 2, -512) + on(1, 2, 57),
+    # No sound at all.
+    'zone': zone(0, 1, 15),
     # Everything at once.
     'all': zone(0, 1, 7) + zone(0, 16, 5) + parameter(0, 4, 0, 24) + control(0.125, 1, VIBRATO, 60)
     + on(0.125, 2, 60) + on(0.1875, 3, 60) + on(0.25, 4, 67) + wheel(0.3125, 3, 3000) + press(0.375, 4, 90)
