@@ -16,10 +16,18 @@ static const double HALF_WAY = 1.0;
 /* The string's twist under the hair: its damper, of the string's impedance, and the time in which
  * its spring gives way to it, of a period. */
 static const double ROLL = 1.0;
-static const double ROLL_TIME = 0.02;
+static const double ROLL_TIME = 0.06;
 
-/* A bow is so wide that it comes no nearer to a wall. */
+/* A bow is so wide that it comes no nearer to a wall, nor so near that a slip would take fewer
+ * frames than these; and further out the string is all too ready to slip twice a period. */
 static const double LEAST_PLACE = 0.03;
+static const double SLIP_FRAMES = 3.0;
+static const double MOST_PLACE = 0.3;
+
+/* A node of the fourth partial, on which nothing holds the string to its own period, and how far
+ * the bow keeps from it. */
+static const double NODE = 0.25;
+static const double NODE_WIDTH = 0.015;
 
 /* Force, of the most with which each round of the string still pulls the hair off, for no pressure
  * and for all. */
@@ -42,46 +50,34 @@ static double friction_at(const Meeting* m, double speed) {
 }
 
 /*
-  Slipping with |v| > 0 in the direction in which `free` is counted: with w = free − yield F μd,
+  How fast it slips, |v|, where `free` is counted in its direction: with w = free − yield F μd,
 
       v² + (v0 − w) v − w v0 + yield F (μs − μd) v0 = 0,
 
-  of which the larger root is the one that is there to stay.  0: none.
+  of which the larger root is the one that is there to stay.
 */
 static double slip_of(const Meeting* m, double free) {
   const double w = free - m->yield * m->force * DYNAMIC;
   const double sum = m->v0 + w;
   const double discriminant = sum * sum - 4.0 * m->yield * m->force * (STATIC - DYNAMIC) * m->v0;
-  if (!(discriminant >= 0.0)) {
-    return 0.0;
-  }
-  return fmax(0.0, 0.5 * (w - m->v0 + sqrt(discriminant)));
+  return fmax(0.0, 0.5 * (w - m->v0 + sqrt(fmax(0.0, discriminant))));
 }
 
-/* Go on with what it did, if it can; else stick, if that is strong enough; else slip. */
-static BowGrip grip_of(const Meeting* m, BowGrip grip, double* speed) {
-  if (grip != BOW_STICKS) {
-    *speed = slip_of(m, grip == BOW_SLIPS_BACK ? -m->free : m->free);
-    if (*speed > 0.0) {
-      return grip;
-    }
-  }
-  *speed = 0.0;
+static BowGrip grip_of(const Meeting* m) {
   if (fabs(m->free) <= m->yield * m->force * STATIC) {
     return BOW_STICKS;
   }
-  *speed = slip_of(m, fabs(m->free));
   return m->free > 0.0 ? BOW_SLIPS_AHEAD : BOW_SLIPS_BACK;
 }
 
 static void settle(Bow* bow, const Meeting* m) {
-  double speed = 0.0;
-  bow->grip = grip_of(m, bow->grip, &speed);
+  bow->grip = grip_of(m);
   if (bow->grip == BOW_STICKS) {
     bow->slip = 0.0;
     bow->friction = -m->free / m->yield;
   } else {
     const double sign = bow->grip == BOW_SLIPS_BACK ? -1.0 : 1.0;
+    const double speed = slip_of(m, sign * m->free);
     bow->slip = sign * speed;
     bow->friction = -sign * friction_at(m, speed);
   }
@@ -133,12 +129,22 @@ static void take_over(Bow* bow, double spring) {
   bow->is_lifted = false;
 }
 
+/* Where it can be bowed: fraction of the length from the nearer wall, then from the one. */
+static double place_of(double wanted, double angle1) {
+  const double least = fmax(LEAST_PLACE, SLIP_FRAMES * angle1 / (2.0 * PI));
+  double beta = fmin(fmax(fmin(wanted, 1.0 - wanted), least), MOST_PLACE);
+  if (fabs(beta - NODE) < NODE_WIDTH) {
+    beta = beta < NODE ? NODE - NODE_WIDTH : NODE + NODE_WIDTH;
+  }
+  return wanted > 0.5 ? 1.0 - beta : beta;
+}
+
 static uint32_t frames_of(double time_s, double rate_hz) {
   return (uint32_t)fmax(1.0, round(time_s * rate_hz));
 }
 
 void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, double rate_hz) {
-  const double place = fmin(fmax(stroke.place, LEAST_PLACE), 1.0 - LEAST_PLACE);
+  const double place = place_of(stroke.place, angle1);
   const double beta = fmin(place, 1.0 - place);
   const double speed = 8.0 * beta * (1.0 - beta) * stroke.amplitude * angle1 / (2.0 * PI);
   /* Schelleng's most: the corner brings 2 √k1 b/β, and friction falls by so much at its slip. */
@@ -188,11 +194,14 @@ bool bow_act(Bow* bow, Chain* chain) {
   follow(bow);
   const double spring = impedance * bow->spring;
   const double roll = 1.0 / (impedance * ROLL + 0.5 * spring);
+  const double yield = 0.5 * contact.square + roll;
+  const double force = bow->strength.now * bow->pressed.now * impedance;
+  const double pace = bow->strength.now * bow->paced.now;
   const Meeting m = {
       .free = 0.5 * (after + bow->before) - bow->hair - roll * spring * bow->rolled,
-      .yield = 0.5 * contact.square + roll,
-      .force = bow->strength.now * bow->pressed.now * impedance,
-      .v0 = fmax(DBL_MIN, HALF_WAY * bow->strength.now * bow->paced.now / beta),
+      .yield = yield,
+      .force = force,
+      .v0 = fmax(DBL_MIN, fmax(HALF_WAY * pace / beta, yield * force * (STATIC - DYNAMIC))),
   };
   settle(bow, &m);
   bow->rolled += roll * (bow->friction - spring * bow->rolled);

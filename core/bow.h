@@ -10,8 +10,10 @@
 
        μ(v) = sgn(v) (μd + (μs − μd)/(1 + |v|/v0)),   any from −μs to μs where it sticks, v = 0,
 
-   so both the branch that sticks and those that slip have closed forms.  Where a string can do
-   either, it goes on with what it did.
+   so both the branch that sticks and those that slip have closed forms.  v0 is so large that
+   friction never falls faster than the string gives way to it: from sticking to slipping nothing
+   jumps.  Where it jumped, it could only do so from one frame to the next, so that high strings
+   fell into step with the frames; and a string that jumps late, and back late, is flat.
 
    A string rolls under the hair, too, which swallows some of what a hard grip would throw back. The
    roll is a damper r and a spring s side by side, and v has its speed w beside the string's own:
@@ -21,10 +23,10 @@
    So in a step the string's energy grows by f (v + b − w), in which f v ≤ 0 is heat, and f w is r
    w² and what ½ s q² grows by: string and roll together get at most the bow's f b.
 
-   With half the pressure at a place about an eighth from a wall, a string of a hundred masses and
-   more, or of all that it can have, moves as Helmholtz's: one slip a period, at its own pitch
-   within 3 cents.  That takes 75 frames a period; with fewer the slips fall into step with the
-   frames, and nearer to the walls or on fewer masses the pitch may be some cents flat.
+   The string moves as Helmholtz's then: one slip a period in most cases, and at its own pitch but
+   for some cents, which core/intonation.h makes good.  In the middle of the string and on the
+   node of its fourth partial nothing holds it to its period, and where a slip would take less than
+   three frames it could not be told from none; so there the bow keeps away, as a fiddler does.
 
    Thread: one at a time; real-time safe.
 */
@@ -38,7 +40,7 @@
 
 /** A stroke as it is wanted. */
 typedef struct {
-  double place;     /**< β, fraction of the length, 0 to 1; kept off the walls */
+  double place;     /**< β, fraction of the length, 0 to 1; kept to where it can be bowed */
   double pressure;  /**< 0: all but too light, to 1: all but too heavy for Helmholtz's motion */
   double amplitude; /**< Largest displacement of the ideal string that it gives, > 0 */
   double attack_s;  /**< Time in which it comes to its speed [s] */

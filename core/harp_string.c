@@ -48,6 +48,7 @@ static void look(HarpString* string) {
 static void leave(HarpString* string) {
   string->hammer.is_active = false;
   string->bow.is_active = false;
+  string->ear.is_active = false;
 }
 
 /* What is between the masses when the hand makes the string brighter, or darker. */
@@ -134,8 +135,11 @@ static double vibrato_of(const HarpString* string) {
 static bool glide(HarpString* string, const Patch* patch, uint32_t n_glide) {
   const double swing = exp2(vibrato_semitones(&string->vibrato) / 12.0);
   const double f0_hz = swing * harp_string_pitch_hz(string, patch);
-  const TuningTarget target = target_of(string, patch, f0_hz);
-  return wire_retune(&string->wire, &target, n_glide);
+  const TuningTarget wanted = target_of(string, patch, f0_hz);
+  const TuningTarget target = intonation_retune(&string->ear, &wanted, n_glide);
+  const bool is_had = wire_retune(&string->wire, &target, n_glide);
+  string->wire.f0_hz = is_had ? f0_hz : string->wire.f0_hz;
+  return is_had;
 }
 
 /* The same, where it hangs on the way, and with its last pitch if the new one cannot be had. */
@@ -215,6 +219,10 @@ static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
     const Stroke stroke = {pluck.place, pluck.hardness, bow_gains[patch->sense] * pluck.amplitude,
                            BOW_ATTACK_S, BOW_RELEASE_S};
     bow_start(&string->bow, chain, stroke, angle1, rate_hz);
+    if (!string->ear.is_active) {
+      const TuningTarget target = target_of(string, patch, string->wire.f0_hz);
+      intonation_start(&string->ear, &target);
+    }
     wire_feed(&string->wire);
     break;
   }
@@ -242,6 +250,7 @@ void harp_string_play(HarpString* string, const Patch* patch, Pluck pluck, uint3
 void harp_string_lift(HarpString* string) {
   if (string->bow.is_active) {
     bow_lift(&string->bow);
+    intonation_leave(&string->ear, &string->wire.chain, wire_gesture_frames(string->wire.rate_hz));
   }
 }
 
@@ -255,6 +264,7 @@ void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames)
   if (is_touched(string)) {
     hammer_act(&string->hammer, &wire->chain);
     bow_act(&string->bow, &wire->chain);
+    intonation_hear(&string->ear, &wire->chain, string->bow.before);
     if (wire->n_until_look == n_frames || !is_touched(string)) {
       wire_feed(wire);
     }

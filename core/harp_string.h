@@ -9,6 +9,7 @@
 
 #include "core/bow.h"
 #include "core/hammer.h"
+#include "core/intonation.h"
 #include "core/patch.h"
 #include "core/vibrato.h"
 #include "core/wire.h"
@@ -40,6 +41,7 @@ typedef struct {
   uint32_t n_swing; /**< Frames until the vibrato's next piece */
   Hammer hammer;    /**< What strikes it now */
   Bow bow;          /**< What is drawn across it now */
+  Intonation ear;   /**< What listens while it is bowed */
 
   /* Who plays it; the harp's */
   uint32_t hand;    /**< The hand that played it last */
@@ -88,8 +90,8 @@ void harp_string_choke(HarpString* string, const Patch* patch, uint32_t n_glide)
  * hammer or a bow is at it. */
 uint32_t harp_string_stretch(const HarpString* string);
 
-/** After `n_frames`, at most its stretch: let the hammer, the bow and the vibrato act, and see
- * wire_pass(). */
+/** After `n_frames`, at most its stretch: let the hammer, the bow, the ear and the vibrato act, and
+ * see wire_pass(). */
 void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames);
 
 #endif

@@ -78,7 +78,7 @@ static void bowed_strings_move_as_helmholtz_said(void** state) {
       const double rate_hz = strung_rate_hz(r);
       strung_key(&strung, memory, key, rate_hz, 128, 2.0);
       const Stroke stroke = {0.13, 0.5, amplitudes[key % 2], 0.05, 0.05};
-      const Bowed bowed = bow_string(&strung, &bow, stroke, 0.6, 1.2, &sines);
+      const Bowed bowed = bow_string(&strung, &bow, stroke, 2.4, 3.0, &sines);
       print_message("%s%u %5.3f %+5.2fc %+4.1fdB", r == 0 ? "  " : " | ", key, bowed.slips,
                     bowed.cents, bowed.decibels);
       const double period = rate_hz / strung.f0_hz;
