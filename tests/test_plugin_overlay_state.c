@@ -3,6 +3,7 @@
 
 #include "plugin/ports.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -106,11 +107,25 @@ static void a_session_may_bring_its_ports_late_and_rounded(void** state) {
   host_free(before);
 }
 
+/* Once the ports are back, the least move is the host's. */
+static void ports_that_are_back_are_moved_as_any(void** state) {
+  (void)state;
+  const ProgramPair pair = programs_open_pair(0);
+  char* const saved = save_as_text(pair.program);
+  restore_text(pair.program, saved);
+  programs_assert_pair(pair);
+  programs_set(pair, "loss", nextafterf(0.01f, 1.0f));
+  programs_assert_pair(pair);
+  lilv_free(saved);
+  programs_close_pair(pair);
+}
+
 static void restore_words(Host* host, const char* words) {
   char turtle[4096];
   (void)snprintf(turtle, sizeof(turtle),
                  "@prefix pset: <http://lv2plug.in/ns/ext/presets#> .\n"
                  "@prefix state: <http://lv2plug.in/ns/ext/state#> .\n"
+                 "@prefix atom: <http://lv2plug.in/ns/ext/atom#> .\n"
                  "<urn:hooke:state> a pset:Preset ;\n"
                  "  <http://lv2plug.in/ns/lv2core#appliesTo> <" STRINGS_URI "> ;\n"
                  "  state:state [ <" STRINGS_URI "#overlay> %s ] .\n",
@@ -120,9 +135,16 @@ static void restore_words(Host* host, const char* words) {
 
 /* It is as if nothing stood there; the second is past the room for it. */
 static void a_broken_state_is_none(void** state) {
-  static const char* const broken[] = {
-      "12",          "\"6:c1200000\"", "\"2:0:0;\"",  "\"6:c1200000:0;x\"",     "\"99:0:0;\"",
-      "\"-1:0:0;\"", "\"x\"",          "\"17:0:0;\"", "\"6:c1200000:0;4:0:0;\""};
+  static const char* const broken[] = {"\"6:c1200000:0;\"^^atom:Path",
+                                       "12",
+                                       "\"6:c1200000\"",
+                                       "\"2:0:0;\"",
+                                       "\"6:c1200000:0;x\"",
+                                       "\"99:0:0;\"",
+                                       "\"-1:0:0;\"",
+                                       "\"x\"",
+                                       "\"17:0:0;\"",
+                                       "\"6:c1200000:0;4:0:0;\""};
   (void)state;
   Host* const plain = programs_open(0);
   Host* const host = programs_open(0);
@@ -233,6 +255,7 @@ int main(void) {
       cmocka_unit_test(a_session_keeps_it),
       cmocka_unit_test(a_session_without_takes_it_away),
       cmocka_unit_test(a_session_may_bring_its_ports_late_and_rounded),
+      cmocka_unit_test(ports_that_are_back_are_moved_as_any),
       cmocka_unit_test(a_broken_state_is_none),
       cmocka_unit_test(values_in_a_state_are_brought_into_range),
       cmocka_unit_test(it_may_be_saved_and_restored_while_it_runs),

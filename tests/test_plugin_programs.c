@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-enum { BLOCK = PROGRAMS_BLOCK, CHANGED = 640, N_FRAMES = 16 * BLOCK };
+enum { BLOCK = PROGRAMS_BLOCK, CHANGED = 192, N_FRAMES = 16 * BLOCK };
 
 /* The shortest glide is as long as the one of any smaller block. */
 enum { SMALL = 64 };
@@ -63,7 +63,7 @@ static Sound change_in_mid_note(int plugin, PresetPlace place, uint32_t block) {
   return sound;
 }
 
-/* It glides there as ports do, at its frame and whatever the blocks. */
+/* It glides there as ports do, at its frame and whatever the blocks, in the first one too. */
 static void a_program_in_mid_note_glides_as_its_preset(void** state) {
   (void)state;
   for (int p = 0; p < PROGRAMS_PLUGINS; ++p) {
@@ -80,6 +80,31 @@ static void a_program_in_mid_note_glides_as_its_preset(void** state) {
       sound_free(&small);
     }
     host_free(list);
+  }
+}
+
+/* What is struck at the same frame, before it, glides too. */
+static void a_note_before_its_program_is_not_lost(void** state) {
+  const uint8_t note_on[3] = {0x90, 50, 100};
+  (void)state;
+  for (int p = 0; p < PROGRAMS_PLUGINS; ++p) {
+    const char* const label = p ? "Banjo" : "Koto";
+    Host* const preset = programs_open(p);
+    Host* const program = programs_open(p);
+    assert_true(host_midi_raw(preset, 0, note_on, 3));
+    strings_note_on(program, 0, 50, 100);
+    assert_true(host_run(preset, 0) && host_preset(preset, label));
+    programs_select(program, 0, programs_place(program, label));
+    Sound loaded = sound_new(N_FRAMES);
+    Sound changed = sound_new(N_FRAMES);
+    strings_run(preset, &loaded, 0, N_FRAMES, SMALL);
+    strings_run(program, &changed, 0, N_FRAMES, BLOCK);
+    assert_true(measure_peak(loaded.left, N_FRAMES) > 1e-3);
+    assert_true(sound_is_same(&loaded, &changed));
+    sound_free(&loaded);
+    sound_free(&changed);
+    host_free(preset);
+    host_free(program);
   }
 }
 
@@ -220,6 +245,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(each_program_sounds_as_its_preset),
       cmocka_unit_test(a_program_in_mid_note_glides_as_its_preset),
+      cmocka_unit_test(a_note_before_its_program_is_not_lost),
       cmocka_unit_test(a_bank_is_heard_from_the_next_program_on),
       cmocka_unit_test(at_first_a_program_is_of_the_first_bank),
       cmocka_unit_test(each_channel_has_its_own_bank),
