@@ -108,6 +108,31 @@ static void a_note_before_its_program_is_not_lost(void** state) {
   }
 }
 
+/* Once time has passed, if only in silence, it glides, and a note within that hears it. */
+static void a_program_after_silence_glides_too(void** state) {
+  (void)state;
+  for (int p = 0; p < PROGRAMS_PLUGINS; ++p) {
+    const char* const label = p ? "Palm-Muted" : "Koto";
+    Host* const preset = programs_open(p);
+    Host* const program = programs_open(p);
+    Sound loaded = sound_new(N_FRAMES);
+    Sound changed = sound_new(N_FRAMES);
+    strings_note_on(preset, SMALL + 10, 50, 100);
+    strings_note_on(program, SMALL + 10, 50, 100);
+    strings_run(preset, &loaded, 0, SMALL, SMALL);
+    assert_true(host_preset(preset, label));
+    programs_select(program, SMALL, programs_place(program, label));
+    strings_run(preset, &loaded, SMALL, N_FRAMES, SMALL);
+    strings_run(program, &changed, 0, N_FRAMES, BLOCK);
+    assert_true(measure_peak(loaded.left, N_FRAMES) > 1e-3);
+    assert_true(sound_is_same(&loaded, &changed));
+    sound_free(&loaded);
+    sound_free(&changed);
+    host_free(preset);
+    host_free(program);
+  }
+}
+
 /* Two hosts at what a preset of this label says. */
 static void open_preset(int plugin, const char* label, Host** preset, Host** program) {
   *preset = programs_open(plugin);
@@ -246,6 +271,7 @@ int main(void) {
       cmocka_unit_test(each_program_sounds_as_its_preset),
       cmocka_unit_test(a_program_in_mid_note_glides_as_its_preset),
       cmocka_unit_test(a_note_before_its_program_is_not_lost),
+      cmocka_unit_test(a_program_after_silence_glides_too),
       cmocka_unit_test(a_bank_is_heard_from_the_next_program_on),
       cmocka_unit_test(at_first_a_program_is_of_the_first_bank),
       cmocka_unit_test(each_channel_has_its_own_bank),
