@@ -9,6 +9,9 @@
 /* Least pull of the springs that a string's bending may leave, of k1. */
 static const double LEAST_PULL = 0.01;
 
+/* Halvings that find a way to rounding. */
+enum { MOST_HALVINGS = 60 };
+
 /*
   How far what a string has now can ever carry a place of it.  With y = x − u/2 and B = I − Z/2 −
   K/4 its energy H = ½ uᵀB u + ½ yᵀK y never grows; a corner y there takes ½ k y²/(s (1 − s)(N +
@@ -42,6 +45,28 @@ static void age(Hammer* hammer) {
   hammer->is_active = hammer->grip > 0.0 && !is_out_of_reach(hammer);
 }
 
+static void compare(Hammer* hammer, const Chain* chain, const Contact* contact) {
+  hammer->now = hammer->position - contact_position(chain, contact);
+  hammer->before = hammer->now - hammer->velocity + contact_velocity(chain, contact);
+}
+
+/* What the felt would hold, twice, were the hammer further back. */
+static double held(const Hammer* hammer, double back) {
+  const Felt* const felt = &hammer->make.felt;
+  return felt_energy(felt, hammer->now - back) + felt_energy(felt, hammer->before - back);
+}
+
+/* As far as it takes for the felt to hold no more than that. */
+static double way_back(const Hammer* hammer, double most) {
+  double low = 0.0;
+  double high = fmax(hammer->now, hammer->before);
+  for (int i = 0; i < MOST_HALVINGS; ++i) {
+    const double middle = 0.5 * (low + high);
+    *(held(hammer, middle) > most ? &low : &high) = middle;
+  }
+  return high;
+}
+
 void hammer_start(Hammer* hammer, const Chain* chain, HammerMake make, double rate_hz) {
   const Contact contact = contact_at(chain, make.place);
   const double closing = make.velocity - contact_velocity(chain, &contact);
@@ -63,10 +88,15 @@ void hammer_throw(
   hammer_start(hammer, chain, rehearsal_make(chain->n_masses, strike, angle1), rate_hz);
 }
 
+/* What moves the string must not press the felt, for none would have paid for it. */
 void hammer_look(Hammer* hammer, const Chain* chain) {
   const Contact contact = contact_at(chain, hammer->make.place);
-  hammer->now = hammer->position - contact_position(chain, &contact);
-  hammer->before = hammer->now - hammer->velocity + contact_velocity(chain, &contact);
+  const double most = held(hammer, 0.0);
+  compare(hammer, chain, &contact);
+  if (held(hammer, 0.0) > most) {
+    hammer->position -= way_back(hammer, most);
+    compare(hammer, chain, &contact);
+  }
 }
 
 bool hammer_act(Hammer* hammer, Chain* chain) {

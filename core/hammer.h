@@ -75,7 +75,7 @@ void hammer_throw(Hammer* hammer, const Chain* chain, Strike strike, double angl
 void hammer_start(Hammer* hammer, const Chain* chain, HammerMake make, double rate_hz);
 
 /** See the string anew: call it before the next step when anything but its steps, other hammers or
- * bows has moved it. */
+ * bows has moved it.  Where that would have pressed the felt the hammer gives way. */
 void hammer_look(Hammer* hammer, const Chain* chain);
 
 /**

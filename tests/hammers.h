@@ -18,4 +18,8 @@ void hammers_shake(Strung* strung, Random* random, double size);
 /** Strike, and step until the hammer has left.  @return Its steps, and those in which it pressed */
 uint32_t hammers_strike(Strung* strung, Strike wanted, uint32_t* n_pressed);
 
+/** Energy of a hammer and its felt at a string that does `motion`, from positions: ½ M U² + ½ (φ(c)
+ * + φ(c a step ago)). */
+double hammers_energy(const Hammer* hammer, const Strung* strung, const Motion* motion);
+
 #endif

@@ -80,6 +80,17 @@ double strung_energy(const Motion* motion, StringCoefs coefs) {
   return motion_energy(motion, undamped);
 }
 
+double strung_lost(const Motion* before, const Motion* after, StringCoefs coefs) {
+  const double* const u = before->u;
+  double lost = 0.0;
+  for (uint32_t i = 0; i < before->n; ++i) {
+    const double left = i > 0 ? u[i - 1] : 0.0;
+    const double right = i + 1 < before->n ? u[i + 1] : 0.0;
+    lost += 0.5 * (u[i] + after->u[i]) * (coefs.z0 * u[i] + coefs.z1 * (2.0 * u[i] - left - right));
+  }
+  return lost;
+}
+
 double strung_fundamental(const Strung* strung) {
   Motion motion;
   const double length = strung->chain.n_masses + 1.0;

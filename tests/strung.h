@@ -43,6 +43,9 @@ void strung_read(const Strung* strung, Motion* motion);
 /** ½ uᵀu + ½ xᵀK (x − u) of a motion: what ¼ uᵀZu more than H is. */
 double strung_energy(const Motion* motion, StringCoefs coefs);
 
+/** What the dampers took in a step between two motions: ½ (u' + u)ᵀ Z u. */
+double strung_lost(const Motion* before, const Motion* after, StringCoefs coefs);
+
 /** Amplitude of the fundamental. */
 double strung_fundamental(const Strung* strung);
 

@@ -56,16 +56,6 @@ static double place_velocity(double place, const Motion* motion) {
   return (1.0 - w) * motion->u[i - 1] + (w > 0.0 ? w * motion->u[i] : 0.0);
 }
 
-static double dampers_took(const Motion* a, const Motion* b, StringCoefs c) {
-  double took = 0.0;
-  for (uint32_t i = 0; i < a->n; ++i) {
-    const double left = i > 0 ? a->u[i - 1] : 0.0;
-    const double right = i + 1 < a->n ? a->u[i + 1] : 0.0;
-    took += 0.5 * (a->u[i] + b->u[i]) * (c.z0 * a->u[i] + c.z1 * (2.0 * a->u[i] - left - right));
-  }
-  return took;
-}
-
 /* Friction of the curve: at most the static, and where it slips just what the curve says. */
 static void assert_on_the_curve(const Bow* bow, double place, StringCoefs coefs, uint32_t n) {
   const double k1 = coefs.k1;
@@ -118,7 +108,7 @@ static void power_comes_from_the_bow_alone(void** state) {
       strung_read(&strung, new);
       const double speed = 0.5 * (place_velocity(place, old) + place_velocity(place, new));
       const double after = strung_energy(new, coefs);
-      const double gained = after - before + dampers_took(old, new, coefs);
+      const double gained = after - before + strung_lost(old, new, coefs);
       const double roll = 0.5 * bow.spring * sqrt(coefs.k1) * bow.rolled * bow.rolled;
       size = fmax(size, fmax(fabs(bow.friction * bow.hair), after + roll));
       worst = fmax(worst, fabs(gained - bow.friction * speed) / size);

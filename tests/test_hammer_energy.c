@@ -24,22 +24,6 @@ static double stored(const Felt* felt, double c) {
   return c > 0.0 ? felt->stiffness * pow(c, felt->exponent + 1.0) / (felt->exponent + 1.0) : 0.0;
 }
 
-/* Hammer and felt; the felt's two compressions are worked out from positions. */
-static double hammer_energy(const Hammer* hammer, const Strung* strung, const Motion* motion) {
-  const double length = strung->chain.n_masses + 1.0;
-  const double at = fmin(fmax(hammer->make.place * length, 1.0), length - 1.0);
-  const uint32_t i = (uint32_t)at;
-  const double w = at - i;
-  const double x = (1.0 - w) * motion->x[i - 1] + (w > 0.0 ? w * motion->x[i] : 0.0);
-  const double u = (1.0 - w) * motion->u[i - 1] + (w > 0.0 ? w * motion->u[i] : 0.0);
-  const double now = hammer->position - x;
-  const double before = now - hammer->velocity + u;
-  Felt felt = hammer->make.felt;
-  felt.stiffness *= hammer->grip * length;
-  return 0.5 * hammer->make.mass * length * hammer->velocity * hammer->velocity +
-         0.5 * (stored(&felt, now) + stored(&felt, before));
-}
-
 typedef struct {
   double drift;  /* Largest |change| of the energy in a step, without loss, of all */
   double growth; /* Largest growth in a step */
@@ -52,7 +36,7 @@ static void follow(Strung* strung, Hammer* hammer, uint32_t most, Balance* balan
   static Motion free;
   const StringCoefs coefs = strung->chain.now;
   strung_read(strung, &motion);
-  double felt = hammer_energy(hammer, strung, &motion);
+  double felt = hammers_energy(hammer, strung, &motion);
   double before = strung_energy(&motion, coefs) + felt;
   const double whole = before + 1e-300;
   bool was_pressed = false;
@@ -62,14 +46,8 @@ static void follow(Strung* strung, Hammer* hammer, uint32_t most, Balance* balan
     strung_step(strung, 0);
     hammer_act(hammer, &strung->chain);
     strung_read(strung, &motion);
-    double lost = 0.0;
-    for (uint32_t i = 0; i < motion.n; ++i) {
-      const double left = i > 0 ? free.u[i - 1] : 0.0;
-      const double right = i + 1 < motion.n ? free.u[i + 1] : 0.0;
-      const double drag = coefs.z0 * free.u[i] + coefs.z1 * (2.0 * free.u[i] - left - right);
-      lost += 0.5 * (motion.u[i] + free.u[i]) * drag;
-    }
-    felt = hammer_energy(hammer, strung, &motion);
+    const double lost = strung_lost(&free, &motion, coefs);
+    felt = hammers_energy(hammer, strung, &motion);
     const double after = strung_energy(&motion, coefs) + felt;
     const double change = (after + lost - before) / fmax(whole, fabs(before));
     balance->drift = fmax(balance->drift, fabs(change));
