@@ -5,6 +5,7 @@
 #include <complex.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 static const double PI = 3.14159265358979323846;
 
@@ -20,8 +21,11 @@ static const double MASS_HALVED_HZ = 110.0;
 /* The share of a string's dampers to the ground that stays, whatever the bridge takes. */
 static const double LEAST_GROUND = 0.5;
 
-/* Each takes what is left of the error by the share that the bridge has in the pitch, 1 in 1000. */
-enum { ROUNDS = 4 };
+/* Each round makes what is left of the error smaller by the share that the bridge has in the sound,
+ * 1 in 1000 of the pitch; so one that has moved it but so far has been the last. */
+static const double NEAR = 1e-7;
+static const double NEAR_DAMPING = 1e-4;
+enum { MOST_ROUNDS = 5 };
 
 /* A pole, and what D is made of there. */
 typedef struct {
@@ -73,23 +77,56 @@ static Mode first_mode(StringCoefs coefs, uint32_t n_masses) {
   return mode;
 }
 
+/* Sums over the modes of a string. */
+typedef struct {
+  double first;        /* φ_1² */
+  double slow;         /* eᵀK⁻¹e */
+  double fast;         /* eᵀ(4 − 2Z − K)⁻¹e */
+  double complex rest; /* Σ_{k ≥ 2} φ_k²/D_k(z) */
+} Sums;
+
+/* `rest` only where there is a place. */
+static Sums sum_modes(StringCoefs coefs, uint32_t n_masses, const Place* place) {
+  Mode mode = first_mode(coefs, n_masses);
+  Sums sums = {.first = mode.square};
+  for (uint32_t k = 1;; ++k) {
+    sums.slow += mode.square / mode.pole.a;
+    sums.fast += mode.square / (4.0 - 2.0 * mode.pole.g - mode.pole.a);
+    if (k == n_masses) {
+      return sums;
+    }
+    next_mode(&mode, coefs);
+    if (place) {
+      sums.rest += mode.square * inverse(d_of(place, mode.pole));
+    }
+  }
+}
+
+static BridgeTie tie_of(const Sums* sums, StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {
+  const double weight = hold.mass / (n_masses + 1.0);
+  const double pull = hold.lever * coefs.k1;
+  const double strength = weight * pull * pull;
+  const double load = strength * (sums->slow + sums->fast);
+  const double kept = fmin(1.0, BRIDGE_MOST_LOAD / load);
+  return (BridgeTie){
+      .weight = weight,
+      .pull = sqrt(kept) * pull,
+      .spring = kept * strength * sums->slow,
+      .load = kept * load,
+  };
+}
+
 /* ε of a string's fundamental. */
 static double complex pull_of_bridge(const Bridge* bridge,
                                      StringCoefs coefs,
                                      uint32_t n_masses,
                                      BridgeHold hold,
                                      const Place* place) {
-  const BridgeTie tie = bridge_tie(coefs, n_masses, hold);
+  const Sums sums = sum_modes(coefs, n_masses, place);
+  const BridgeTie tie = tie_of(&sums, coefs, n_masses, hold);
   const double strength = tie.weight * tie.pull * tie.pull;
-  Mode mode = first_mode(coefs, n_masses);
-  const double square = mode.square;
-  double complex rest = 0.0;
-  for (uint32_t k = 2; k <= n_masses; ++k) {
-    next_mode(&mode, coefs);
-    rest += mode.square * inverse(d_of(place, mode.pole));
-  }
   const double complex bare = d_of(place, bridge->bare);
-  return strength * square * inverse(bare + tie.spring - strength * rest);
+  return strength * sums.first * inverse(bare + tie.spring - strength * sums.rest);
 }
 
 /* The sound that is wanted of the two, and what was asked of the string alone for it. */
@@ -128,54 +165,64 @@ double bridge_mass(double f0_hz) {
 }
 
 BridgeTie bridge_tie(StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {
-  const double weight = hold.mass / (n_masses + 1.0);
-  const double pull = hold.lever * coefs.k1;
-  Mode mode = first_mode(coefs, n_masses);
-  double slow = mode.square / mode.pole.a;
-  double fast = mode.square / (4.0 - 2.0 * mode.pole.g - mode.pole.a);
-  for (uint32_t k = 2; k <= n_masses; ++k) {
-    next_mode(&mode, coefs);
-    slow += mode.square / mode.pole.a;
-    fast += mode.square / (4.0 - 2.0 * mode.pole.g - mode.pole.a);
-  }
-  const double load = weight * pull * pull * (slow + fast);
-  const double kept = fmin(1.0, BRIDGE_MOST_LOAD / load);
-  return (BridgeTie){
-      .weight = weight,
-      .pull = sqrt(kept) * pull,
-      .spring = kept * weight * pull * pull * slow,
-      .load = kept * load,
-  };
+  const Sums sums = sum_modes(coefs, n_masses, NULL);
+  return tie_of(&sums, coefs, n_masses, hold);
 }
 
 double bridge_headroom(const Bridge* bridge, double load) {
   return 1.0 - 0.25 * (bridge->bare.a + 2.0 * bridge->bare.g + load);
 }
 
-TuningTarget
-bridge_correct(const Bridge* bridge, TuningTarget target, uint32_t n_masses, BridgeHold hold) {
-  TuningTarget own = target;
-  StringCoefs coefs = {0};
-  if (!(hold.mass * hold.lever > 0.0) || tuning_fit(&own, n_masses, &coefs)) {
-    return target;
-  }
-  const double g = -expm1(-2.0 / (target.rate_hz * target.tone.tau_s));
+/* What to ask of the string for its fundamental to have a pole; what sits between the masses stays.
+ */
+static TuningTarget ask(TuningTarget target, double g, Pole own) {
+  const double between = target.loss * g;
+  target.tone = pole_tone(target.rate_hz, own);
+  target.loss = own.g > 0.0 ? fmin(between / own.g, 1.0) : target.loss;
+  return target;
+}
+
+static Pole guess(const TuningTarget* target, double g, const BridgeShift* shift) {
+  const bool is_known = shift->pitch > 0.0;
+  const double own_g = is_known ? g * fmin(shift->damping, 1.0) : g;
+  const double angle = 2.0 * PI * target->tone.f0_hz / target->rate_hz;
+  const double turn = is_known ? fmin(angle * shift->pitch, 0.999 * PI) : angle;
+  return (Pole){.a = 2.0 - own_g - 2.0 * sqrt(1.0 - own_g) * cos(turn), .g = own_g};
+}
+
+TuningTarget bridge_correct(const Bridge* bridge,
+                            TuningTarget target,
+                            uint32_t n_masses,
+                            BridgeHold hold,
+                            BridgeShift* shift) {
+  const double step_s = 1.0 / target.rate_hz;
+  const double g = -expm1(-2.0 * step_s / target.tone.tau_s);
   Wish wish = {
-      .angle = 2.0 * PI * target.tone.f0_hz / target.rate_hz,
-      .radius = exp(-1.0 / (target.rate_hz * target.tone.tau_s)),
+      .angle = 2.0 * PI * target.tone.f0_hz * step_s,
+      .radius = sqrt(1.0 - g),
       .least = g * (target.loss + LEAST_GROUND * (1.0 - target.loss)),
   };
-  for (int round = 0; round < ROUNDS; ++round) {
-    const Place place = place_of(wish.radius, wish.angle);
-    const Pole pole = own_pole(&wish, pull_of_bridge(bridge, coefs, n_masses, hold, &place));
-    if (!pole_is_complex(pole)) {
+  if (!(hold.mass * hold.lever > 0.0)) {
+    return target;
+  }
+  Pole own = guess(&target, g, shift);
+  for (int round = 0; round < MOST_ROUNDS; ++round) {
+    const TuningTarget asked = ask(target, g, own);
+    const Pole before = own;
+    StringCoefs coefs = {0};
+    if (tuning_fit(&asked, n_masses, &coefs)) {
       return target;
     }
-    own.tone = pole_tone(target.rate_hz, pole);
-    own.loss = pole.g > 0.0 ? fmin(target.loss * g / pole.g, 1.0) : target.loss;
-    if (tuning_fit(&own, n_masses, &coefs)) {
+    const Place place = place_of(wish.radius, wish.angle);
+    own = own_pole(&wish, pull_of_bridge(bridge, coefs, n_masses, hold, &place));
+    if (!pole_is_complex(own)) {
       return target;
+    }
+    if (fabs(own.a - before.a) <= NEAR * own.a && fabs(own.g - before.g) <= NEAR_DAMPING * g) {
+      break;
     }
   }
-  return own;
+  const TuningTarget asked = ask(target, g, own);
+  *shift = (BridgeShift){asked.tone.f0_hz / target.tone.f0_hz, g > 0.0 ? own.g / g : 1.0};
+  return asked;
 }

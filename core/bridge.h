@@ -102,6 +102,12 @@ BridgeTie bridge_tie(StringCoefs coefs, uint32_t n_masses, BridgeHold hold);
 */
 double bridge_headroom(const Bridge* bridge, double load);
 
+/** What the bridge does to a string's fundamental; zero is not known. */
+typedef struct {
+  double pitch;   /**< What to ask of the string, over what is wanted */
+  double damping; /**< The same of g */
+} BridgeShift;
+
 /**
    The target to be asked of a string alone, tuning_fit(), for it to have the pitch and decay of
    `target` once it is tied to the bridge and no other string moves.
@@ -110,11 +116,16 @@ double bridge_headroom(const Bridge* bridge, double load);
    of what they were: partials have the same of those, but the bridge takes less from them.  Where
    it takes more, the pitch is still exact, and the string dies sooner than was asked.
 
-   @param n_masses  Those that the string will have, ≥ 1
+   @param n_masses       Those that the string will have, ≥ 1
+   @param[in,out] shift  What it was the last time, for that saves time where it moves little; what
+   it is now
    @return `target` as it was where `hold` is none, or the target cannot be had
 */
-TuningTarget
-bridge_correct(const Bridge* bridge, TuningTarget target, uint32_t n_masses, BridgeHold hold);
+TuningTarget bridge_correct(const Bridge* bridge,
+                            TuningTarget target,
+                            uint32_t n_masses,
+                            BridgeHold hold,
+                            BridgeShift* shift);
 
 /**
    One step, after those of the strings.

@@ -32,8 +32,7 @@ static ChainElasticity elasticity_of(StringCoefs c) {
   return c.k3 != 0.0 ? CHAIN_STRAIGHTENED : c.k2 != 0.0 ? CHAIN_BENDING : CHAIN_FLEXIBLE;
 }
 
-/* The loop for what the string is now: nothing that it does not need is in it. */
-static ChainLoop loop_of(const Chain* chain, uint32_t n_taps) {
+ChainLoop chain_loop(const Chain* chain, uint32_t n_taps) {
   const bool is_moving = chain->n_gliding > 0;
   ChainDamping damping = damping_of(chain->now);
   ChainElasticity elasticity = elasticity_of(chain->now);
@@ -120,11 +119,18 @@ double chain_amplitude(const Chain* chain, double a1) {
   return sqrt(2.0 * energy / (half_step * (chain->n_masses + 1.0)));
 }
 
+void chain_share(Chain* chain, bool is_shared) {
+  chain->is_shared = is_shared;
+  if (is_shared) {
+    chain_numbers_touch(chain);
+  }
+}
+
 uint32_t chain_stretch(const Chain* chain) {
   return chain->n_gliding > 0 ? chain->n_gliding : UINT32_MAX;
 }
 
-static ChainWork work_of(const ChainPart* part, uint32_t n_taps) {
+ChainWork chain_work(const ChainPart* part, uint32_t n_taps) {
   Chain* const chain = part->chain;
   ChainWork work = {
       .cells = chain->cells,
@@ -142,8 +148,7 @@ static ChainWork work_of(const ChainPart* part, uint32_t n_taps) {
   return work;
 }
 
-/* A glide that ends with these frames leaves the chain where it was going. */
-static void finish(Chain* chain, uint32_t n_frames) {
+void chain_pass(Chain* chain, uint32_t n_frames) {
   if (chain->n_gliding > 0) {
     chain->n_gliding -= n_frames;
     if (chain->n_gliding == 0) {
@@ -159,16 +164,16 @@ void chain_run_all(const ChainPart* parts,
                    float* const* out) {
   ChainWork batch[CHAIN_MAX_BATCH];
   for (uint32_t first = 0; first < n_parts;) {
-    const ChainLoop loop = loop_of(parts[first].chain, n_taps);
+    const ChainLoop loop = chain_loop(parts[first].chain, n_taps);
     uint32_t n = 0;
     do {
-      batch[n] = work_of(&parts[first + n], n_taps);
+      batch[n] = chain_work(&parts[first + n], n_taps);
       ++n;
     } while (n < CHAIN_MAX_BATCH && first + n < n_parts && batch[n - 1].n_cells <= SHORT_CELLS &&
-             loop_of(parts[first + n].chain, n_taps) == loop);
+             chain_loop(parts[first + n].chain, n_taps) == loop);
     loop(batch, n, n_frames, out);
     for (uint32_t w = 0; w < n; ++w) {
-      finish(parts[first + w].chain, n_frames);
+      chain_pass(parts[first + w].chain, n_frames);
     }
     first += n;
   }

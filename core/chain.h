@@ -57,6 +57,7 @@ typedef struct {
   double gain;        /**< CHAIN_FIXED: of a number */
   double fade;        /**< CHAIN_FIXED: what a step makes of the gain */
   uint32_t chance;    /**< CHAIN_FIXED: where the dither is */
+  bool is_shared; /**< Something else acts on it in every frame, so that it is never left alone */
 } Chain;
 
 /** Bytes that hold `n_masses` with any kernel; a multiple of CHAIN_ALIGNMENT. */
@@ -155,5 +156,21 @@ void chain_run_all(const ChainPart* parts,
                    uint32_t n_frames,
                    uint32_t n_taps,
                    float* const* out);
+
+/* For who steps chains by the loops themselves, a frame at a time, since something acts on them
+   between frames: of each a loop and its work, which stand until the chain is touched otherwise,
+   and after at most chain_stretch() frames chain_pass(). */
+
+/** Say whether something acts on it so; then it is not kept in whole numbers. */
+void chain_share(Chain* chain, bool is_shared);
+
+/** The loop for what the chain is now: nothing that it does not need is in it. */
+ChainLoop chain_loop(const Chain* chain, uint32_t n_taps);
+
+/** What is to be given to it. */
+ChainWork chain_work(const ChainPart* part, uint32_t n_taps);
+
+/** `n_frames` have been run; a glide that ends with them leaves the chain where it was going. */
+void chain_pass(Chain* chain, uint32_t n_frames);
 
 #endif

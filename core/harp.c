@@ -67,6 +67,7 @@ static void lay_out(Harp* harp, char* memory) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     harp_string_init(&harp->strings[i], harp->rate_hz, i % HARP_KEYS, memory + i * size,
                      CHAIN_MAX_MASSES);
+    harp->strings[i].bridge = &harp->bridge.bridge;
   }
 }
 
@@ -82,6 +83,7 @@ Harp* harp_new(double rate_hz) {
     harp_free(harp);
     return NULL;
   }
+  harp_bridge_init(&harp->bridge, rate_hz);
   lay_out(harp, harp->memory);
   harp->swell = 1.0;
   harp_hands_reset(harp->hands);
@@ -100,6 +102,7 @@ void harp_reset(Harp* harp) {
     harp_string_rest(&harp->strings[i]);
   }
   harp_hands_reset(harp->hands);
+  harp_bridge_init(&harp->bridge, harp->rate_hz);
   harp->swell = 1.0;
   harp->reading.n_taps = 0;
   harp->is_bowed = false;
@@ -111,7 +114,7 @@ void harp_reset(Harp* harp) {
 static bool is_same_string(const Patch* a, const Patch* b) {
   return a->damping_per_s == b->damping_per_s && a->tracking == b->tracking && a->loss == b->loss &&
          a->inharmonicity == b->inharmonicity && a->release_s == b->release_s &&
-         a->tuning_hz == b->tuning_hz && a->partials == b->partials;
+         a->tuning_hz == b->tuning_hz && a->partials == b->partials && a->resonance == b->resonance;
 }
 
 void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_frames) {
@@ -176,7 +179,7 @@ static void raise_key(Harp* harp, HarpString* string) {
   string->is_down = false;
   string->leaned_on = 0.0;
   harp_string_lift(string);
-  if (was_leaned_on || string->lift != lift_of(harp, string)) {
+  if (was_leaned_on || string->lift != lift_of(harp, string) || grip_is_on(&string->grip)) {
     retune(harp, string, harp->n_gesture);
   }
 }
@@ -277,12 +280,13 @@ void harp_all_sound_off(Harp* harp) {
     HarpString* const string = &harp->strings[i];
     string->is_down = false;
     string->is_caught = false;
+    string->lift = 0.0;
     harp_string_choke(string, &harp->patch, harp->n_gesture);
   }
 }
 
 HarpReport harp_report(const Harp* harp) {
-  HarpReport report = {.headroom = 1.0};
+  HarpReport report = {.headroom = harp_bridge_headroom(harp)};
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     const Wire* const wire = &harp->strings[i].wire;
     if (wire->is_awake) {

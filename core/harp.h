@@ -13,6 +13,7 @@
 #ifndef HOOKE_CORE_HARP_H
 #define HOOKE_CORE_HARP_H
 
+#include "core/harp_bridge.h"
 #include "core/harp_pickups.h"
 #include "core/harp_string.h"
 #include "core/patch.h"
@@ -44,12 +45,12 @@ typedef struct {
 typedef struct {
   uint32_t n_strings; /**< Strings awake */
   uint32_t n_masses;  /**< Their masses */
-  double headroom; /**< The smallest of their stability margins, see tuning_headroom(); 1 if none is
-                      awake */
+  double headroom; /**< The smallest of their stability margins, see tuning_headroom(), and of the
+                      bridge's; 1 if none is awake */
 } HarpReport;
 
 /** The harp; use it through the functions below. */
-typedef struct {
+typedef struct Harp {
   double rate_hz;
   uint32_t n_gesture; /**< Frames that a player's gesture takes to act */
   Patch patch;
@@ -62,10 +63,11 @@ typedef struct {
   void* memory;                     /**< Memory of all strings; owned */
   HarpString* awake[HARP_STRINGS];  /**< The strings awake, while they are run */
   ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
-  bool is_bowed;                    /**< Whether a note has been bowed since all was still */
-  double rest[2];                   /**< What stands still on each side, once one has */
-  HarpReading reading;              /**< How they were read last */
-  float before[CHAIN_MAX_TAPS];     /**< The last sample of each tap, where it is differentiated */
+  HarpBridge bridge;
+  bool is_bowed;                /**< Whether a note has been bowed since all was still */
+  double rest[2];               /**< What stands still on each side, once one has */
+  HarpReading reading;          /**< How they were read last */
+  float before[CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is differentiated */
   float mix[CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;
 

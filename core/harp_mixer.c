@@ -33,21 +33,34 @@ static ChainTap tap_of(const Harp* harp, const HarpString* string, const HarpEar
   return pickup_tap_sensing(ear->sense, n_masses, ear->place, angle_of(harp, string), ear->is_far);
 }
 
-/* The strings awake, and where they are read. */
-static uint32_t gather(Harp* harp, const HarpReading* reading) {
-  uint32_t n_parts = 0;
+static void add_part(Harp* harp, uint32_t i, HarpString* string, const HarpReading* reading) {
+  ChainPart* const part = &harp->parts[i];
+  part->chain = &string->wire.chain;
+  for (uint32_t t = 0; t < reading->n_taps; ++t) {
+    part->taps[t] = tap_of(harp, string, &reading->ears[t]);
+  }
+  harp->awake[i] = string;
+}
+
+/* Those of the strings awake that are tied to the bridge, or those that are not. */
+static uint32_t
+gather_some(Harp* harp, uint32_t n_parts, bool are_tied, const HarpReading* reading) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (string->wire.is_awake) {
-      ChainPart* const part = &harp->parts[n_parts];
-      part->chain = &string->wire.chain;
-      for (uint32_t t = 0; t < reading->n_taps; ++t) {
-        part->taps[t] = tap_of(harp, string, &reading->ears[t]);
-      }
-      harp->awake[n_parts++] = string;
+    if (string->wire.is_awake && grip_is_on(&string->grip) == are_tied) {
+      chain_share(&string->wire.chain, are_tied);
+      string->wire.is_kept = string->wire.is_kept && are_tied;
+      add_part(harp, n_parts++, string, reading);
     }
   }
   return n_parts;
+}
+
+/* The strings awake, and where they are read. */
+static uint32_t gather(Harp* harp, const HarpReading* reading) {
+  const uint32_t n_tied = gather_some(harp, 0, true, reading);
+  harp_bridge_gather(harp, n_tied);
+  return gather_some(harp, n_tied, false, reading);
 }
 
 /* What a tap reads of all strings as they are. */
@@ -128,6 +141,10 @@ static uint32_t stretch(const Harp* harp, uint32_t n_frames) {
   return n_left > 0 ? least(n, n_left) : n;
 }
 
+static uint32_t stretch_of(const HarpString* string) {
+  return harp_string_is_touched(string) ? 1 : harp_string_stretch(string);
+}
+
 /* Run a string that something happens to on the way. */
 static void run_in_pieces(const Harp* harp,
                           HarpString* string,
@@ -136,23 +153,24 @@ static void run_in_pieces(const Harp* harp,
                           uint32_t n_taps,
                           float** out) {
   for (uint32_t done = 0; done < n_frames && string->wire.is_awake;) {
-    const uint32_t n = least(n_frames - done, harp_string_stretch(string));
+    const uint32_t n = least(n_frames - done, stretch_of(string));
     float* rest[CHAIN_MAX_TAPS];
     for (uint32_t t = 0; t < n_taps; ++t) {
       rest[t] = out[t] + done;
     }
     chain_run_all(part, 1, n, n_taps, rest);
+    harp_string_act(string);
     harp_string_pass(string, &harp->patch, n);
     done += n;
   }
 }
 
-/* Run the strings awake in their order, those that nothing happens to side by side. */
+/* Run the strings that are not tied in their order, those that nothing happens to side by side. */
 static void
 run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps, float** out) {
-  uint32_t first = 0;
-  for (uint32_t i = 0; i <= n_parts; ++i) {
-    if (i < n_parts && harp_string_stretch(harp->awake[i]) > n_frames) {
+  uint32_t first = harp->bridge.n_tied;
+  for (uint32_t i = first; i <= n_parts; ++i) {
+    if (i < n_parts && stretch_of(harp->awake[i]) > n_frames) {
       continue;
     }
     chain_run_all(&harp->parts[first], i - first, n_frames, n_taps, out);
@@ -169,14 +187,16 @@ run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps, fl
 /* Run as many of `n_frames` as can be run in one go; how many they were. */
 static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* right) {
   const HarpReading reading = harp_pickups_reading(&harp->pickups);
-  const uint32_t n = stretch(harp, n_frames);
+  const uint32_t n_parts = gather(harp, &reading);
+  const uint32_t n_most = harp_bridge_stretch(harp, stretch(harp, n_frames));
   float* out[CHAIN_MAX_TAPS];
   for (uint32_t t = 0; t < reading.n_taps; ++t) {
-    out[t] = memset(harp->mix[t], 0, n * sizeof(float));
+    out[t] = memset(harp->mix[t], 0, n_most * sizeof(float));
   }
-  const uint32_t n_parts = gather(harp, &reading);
   take_reading(harp, &reading, n_parts);
+  const uint32_t n = harp_bridge_run(harp, n_most, reading.n_taps, out);
   run_strings(harp, n_parts, n, reading.n_taps, out);
+  harp_bridge_pass(harp, n);
   for (uint32_t t = 0; t < reading.n_taps; ++t) {
     if (reading.ears[t].sense == SENSE_VELOCITY) {
       pickup_differentiate(out[t], n, &harp->before[t]);

@@ -1,5 +1,7 @@
 #include "core/harp_string.h"
 
+#include "core/harp_target.h"
+
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
@@ -17,12 +19,6 @@ static const double bow_gains[] = {
 static const double BOW_ATTACK_S = 0.04;
 static const double BOW_RELEASE_S = 0.03;
 
-/* How the hand's brightness moves the loss between the masses: towards a tenth of it, or up, on a
- * scale of octaves, to its fourth root. */
-static const double BRIGHTEST_LOSS = 0.1;
-static const double DARKEST_LOSS = 0.75;
-static const double LEAST_DARK_LOSS = 1e-5;
-
 /* Vibrato that full pressure asks for [semitones]. */
 static const double PRESSED_VIBRATO = 0.5;
 
@@ -30,7 +26,7 @@ static uint32_t least(uint32_t a, uint32_t b) {
   return a < b ? a : b;
 }
 
-static bool is_touched(const HarpString* string) {
+bool harp_string_is_touched(const HarpString* string) {
   return string->hammer.is_active || string->bow.is_active;
 }
 
@@ -51,53 +47,15 @@ static void leave(HarpString* string) {
   string->ear.is_active = false;
 }
 
-/* What is between the masses when the hand makes the string brighter, or darker. */
-static double loss_of(const HarpString* string, const Patch* patch) {
-  const double brightness = string->touch.brightness;
-  if (brightness >= 0.0) {
-    return patch->loss * pow(BRIGHTEST_LOSS, brightness);
-  }
-  return pow(fmax(patch->loss, LEAST_DARK_LOSS), 1.0 + DARKEST_LOSS * brightness);
-}
-
-/* What a damper adds acts from outside; one that is lifted in part, by the same share of the way
- * on a scale of octaves. */
-static TuningTarget target_of(const HarpString* string, const Patch* patch, double f0_hz) {
-  const double octaves = ((double)string->key - 69.0) / 12.0;
-  const double open_s = 1.0 / (patch->damping_per_s * exp2(patch->tracking * octaves));
-  const TuningTarget open = {
-      .rate_hz = string->wire.rate_hz,
-      .tone = {.f0_hz = f0_hz, .tau_s = open_s},
-      .loss = loss_of(string, patch),
-      .inharmonicity = patch->inharmonicity,
-      .partials = patch->partials,
-  };
-  if (string->wire.is_choked) {
-    return tuning_damped(open, fmin(open_s, WIRE_CHOKE_S), 0.0);
-  }
-  const double shut_s = fmin(open_s, patch->release_s);
-  const double tau_s = shut_s * pow(open_s / shut_s, string->lift);
-  return string->lift < 1.0 ? tuning_damped(open, fmin(open_s, tau_s), 0.0) : open;
-}
-
 /* A pluck gives a ringing string the masses back that a bend took. */
 static void mesh_for_pluck(HarpString* string, const Patch* patch) {
   if (string->wire.chain.n_masses < string->n_strung) {
-    const TuningTarget target = target_of(string, patch, harp_string_pitch_hz(string, patch));
+    const TuningTarget target = harp_target(string, patch, harp_string_pitch_hz(string, patch));
     const uint32_t n_masses = tuning_max_masses(&target, string->n_strung);
     if (n_masses > string->wire.chain.n_masses) {
       wire_mesh(&string->wire, &target, n_masses);
     }
   }
-}
-
-static bool restring(HarpString* string, const Patch* patch) {
-  wire_choke(&string->wire, false);
-  const TuningTarget target = target_of(string, patch, harp_string_pitch_hz(string, patch));
-  const bool is_strung = wire_string(&string->wire, &target, patch->max_masses);
-  string->n_strung = is_strung ? string->wire.chain.n_masses : 0;
-  string->vibrato = (Vibrato){0};
-  return is_strung;
 }
 
 double harp_string_pitch_hz(const HarpString* string, const Patch* patch) {
@@ -115,6 +73,9 @@ void harp_string_rest(HarpString* string) {
   leave(string);
   string->touch = HARP_TOUCH_NONE;
   string->vibrato = (Vibrato){0};
+  string->grip = (Grip){0};
+  string->lift = 0.0;
+  string->has_acted = false;
   string->hand = 0;
   string->is_down = false;
   string->is_caught = false;
@@ -135,23 +96,39 @@ static double vibrato_of(const HarpString* string) {
 static bool glide(HarpString* string, const Patch* patch, uint32_t n_glide) {
   const double swing = exp2(vibrato_semitones(&string->vibrato) / 12.0);
   const double f0_hz = swing * harp_string_pitch_hz(string, patch);
-  const TuningTarget wanted = target_of(string, patch, f0_hz);
+  const TuningTarget wanted = harp_target(string, patch, f0_hz);
   const TuningTarget target = intonation_retune(&string->ear, &wanted, n_glide);
-  const bool is_had = wire_retune(&string->wire, &target, n_glide);
+  const bool is_had = grip_retune(&string->grip, string->bridge, &string->wire, &target,
+                                  harp_target_hold(string, patch), n_glide);
   string->wire.f0_hz = is_had ? f0_hz : string->wire.f0_hz;
   return is_had;
+}
+
+static bool restring(HarpString* string, const Patch* patch, uint32_t n_glide) {
+  wire_choke(&string->wire, false);
+  const TuningTarget target = harp_target(string, patch, harp_string_pitch_hz(string, patch));
+  const bool is_strung = wire_string(&string->wire, &target, patch->max_masses);
+  string->n_strung = is_strung ? string->wire.chain.n_masses : 0;
+  string->vibrato = (Vibrato){0};
+  string->grip = (Grip){0};
+  if (is_strung && harp_target_hold(string, patch).lever > 0.0) {
+    glide(string, patch, 0);
+    grip_renew(&string->grip, n_glide);
+  }
+  return is_strung;
 }
 
 /* The same, where it hangs on the way, and with its last pitch if the new one cannot be had. */
 static void glide_or_choke(HarpString* string, const Patch* patch, uint32_t n_glide) {
   Wire* const wire = &string->wire;
-  if (is_touched(string)) {
+  if (harp_string_is_touched(string)) {
     wire_feed(wire);
   }
   if (!glide(string, patch, n_glide)) {
     wire_choke(wire, true);
-    const TuningTarget target = target_of(string, patch, wire->f0_hz);
-    if (!wire_retune(wire, &target, n_glide)) {
+    const TuningTarget target = harp_target(string, patch, wire->f0_hz);
+    if (!grip_retune(&string->grip, string->bridge, wire, &target, harp_target_hold(string, patch),
+                     n_glide)) {
       wire_sleep(wire);
     }
   }
@@ -220,7 +197,7 @@ static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
                            BOW_ATTACK_S, BOW_RELEASE_S};
     bow_start(&string->bow, chain, stroke, angle1, rate_hz);
     if (!string->ear.is_active) {
-      const TuningTarget target = target_of(string, patch, string->wire.f0_hz);
+      const TuningTarget target = harp_target(string, patch, string->wire.f0_hz);
       intonation_start(&string->ear, &target);
     }
     wire_feed(&string->wire);
@@ -235,7 +212,7 @@ void harp_string_play(HarpString* string, const Patch* patch, Pluck pluck, uint3
     wire_choke(&string->wire, false);
     mesh_for_pluck(string, patch);
     harp_string_retune(string, patch, n_glide);
-  } else if (!restring(string, patch)) {
+  } else if (!restring(string, patch, n_glide)) {
     return;
   }
   if (string->wire.is_awake && !string->wire.is_choked) {
@@ -254,21 +231,46 @@ void harp_string_lift(HarpString* string) {
   }
 }
 
+bool harp_string_wake(HarpString* string, const Patch* patch, uint32_t n_glide) {
+  if (!restring(string, patch, n_glide)) {
+    return false;
+  }
+  if (vibrato_of(string) != string->vibrato.goal) {
+    harp_string_retune(string, patch, n_glide);
+  }
+  return true;
+}
+
+bool harp_string_act(HarpString* string) {
+  Chain* const chain = &string->wire.chain;
+  const uint32_t n_gliding = chain->n_gliding;
+  const double change = chain->change.k1;
+  if (!harp_string_is_touched(string)) {
+    return false;
+  }
+  hammer_act(&string->hammer, chain);
+  bow_act(&string->bow, chain);
+  intonation_hear(&string->ear, chain, string->bow.before);
+  string->has_acted = true;
+  if (chain->n_gliding != n_gliding || chain->change.k1 != change) {
+    grip_follow(&string->grip, chain);
+    return true;
+  }
+  return !harp_string_is_touched(string);
+}
+
 uint32_t harp_string_stretch(const HarpString* string) {
-  const uint32_t n_wire = is_touched(string) ? 1 : wire_stretch(&string->wire);
+  const uint32_t n_wire = wire_stretch(&string->wire);
   return vibrato_is_still(&string->vibrato) ? n_wire : least(n_wire, string->n_swing);
 }
 
 void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames) {
   Wire* const wire = &string->wire;
-  if (is_touched(string)) {
-    hammer_act(&string->hammer, &wire->chain);
-    bow_act(&string->bow, &wire->chain);
-    intonation_hear(&string->ear, &wire->chain, string->bow.before);
-    if (wire->n_until_look == n_frames || !is_touched(string)) {
-      wire_feed(wire);
-    }
+  if (string->has_acted && (wire->n_until_look == n_frames || !harp_string_is_touched(string))) {
+    wire_feed(wire);
+    wire->n_until_look += n_frames - 1; /* From now on, whenever it was told last */
   }
+  string->has_acted = false;
   wire_pass(wire, n_frames);
   if (!vibrato_is_still(&string->vibrato)) {
     string->n_swing -= n_frames;

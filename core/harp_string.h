@@ -8,6 +8,7 @@
 #define HOOKE_CORE_HARP_STRING_H
 
 #include "core/bow.h"
+#include "core/grip.h"
 #include "core/hammer.h"
 #include "core/intonation.h"
 #include "core/patch.h"
@@ -38,10 +39,13 @@ typedef struct {
   double lift;       /**< Of its damper: 0, it lies on the string, to 1, it does not touch it */
   HarpTouch touch;   /**< Set it before harp_string_play() or harp_string_retune() */
   Vibrato vibrato;
-  uint32_t n_swing; /**< Frames until the vibrato's next piece */
-  Hammer hammer;    /**< What strikes it now */
-  Bow bow;          /**< What is drawn across it now */
-  Intonation ear;   /**< What listens while it is bowed */
+  uint32_t n_swing;     /**< Frames until the vibrato's next piece */
+  Hammer hammer;        /**< What strikes it now */
+  Bow bow;              /**< What is drawn across it now */
+  Intonation ear;       /**< What listens while it is bowed */
+  bool has_acted;       /**< One of them has, since harp_string_pass() was told */
+  const Bridge* bridge; /**< What the patch's resonance ties it to; NULL: nothing */
+  Grip grip;            /**< How */
 
   /* Who plays it; the harp's */
   uint32_t hand;    /**< The hand that played it last */
@@ -86,12 +90,21 @@ void harp_string_retune(HarpString* string, const Patch* patch, uint32_t n_glide
 /** Lay a hand on it: it is gone in a moment. */
 void harp_string_choke(HarpString* string, const Patch* patch, uint32_t n_glide);
 
-/** Frames that its chain can be run in one go, before harp_string_pass() must be told: one while a
- * hammer or a bow is at it. */
+/** Wake it, at rest, for the bridge to move; it is tied in `n_glide` frames.  False if it cannot
+ * sound. */
+bool harp_string_wake(HarpString* string, const Patch* patch, uint32_t n_glide);
+
+/** Whether a hammer or a bow is at it, which asks for harp_string_act() after every frame. */
+bool harp_string_is_touched(const HarpString* string);
+
+/** Let the hammer, the bow and the ear act; true if they have just left, or moved the string's
+ * coefficients, and harp_string_pass() is to be told. */
+bool harp_string_act(HarpString* string);
+
+/** Frames that it can be run before harp_string_pass() must be told. */
 uint32_t harp_string_stretch(const HarpString* string);
 
-/** After `n_frames`, at most its stretch: let the hammer, the bow, the ear and the vibrato act, and
- * see wire_pass(). */
+/** After `n_frames`, at most its stretch: let the vibrato act, and see wire_pass(). */
 void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames);
 
 #endif

@@ -40,7 +40,7 @@ static double motion_of(const Wire* wire) {
 
 /* Take back what moving coefficients fed it beyond what may be. */
 static void hold_back(Wire* wire) {
-  const double most = MOST_FED * wire->given;
+  const double most = MOST_FED * fmax(wire->given, wire->lent);
   const double motion = motion_of(wire);
   if (motion > most) {
     const float kept = (float)(most / motion);
@@ -51,10 +51,12 @@ static void hold_back(Wire* wire) {
   }
 }
 
-/* What moving coefficients fed it is not taken for a pluck's. */
+/* What moving coefficients fed it is not taken for a pluck's, and what others lent it not for its
+ * own. */
 static void note_pluck(Wire* wire, double before) {
   const double after = motion_of(wire);
-  wire->given = before > wire->given ? wire->given * (after / before) : after;
+  const double given = before > wire->given ? wire->given * (after / before) : after;
+  wire->given = wire->lent > 0.0 ? fmax(given, wire->given + after - before) : given;
 }
 
 /* Remember what the coefficients were made for. */
@@ -88,7 +90,8 @@ static bool is_let_go(const Wire* wire) {
 static void look(Wire* wire) {
   wire->loudest = fmax(wire->loudest, chain_amplitude(&wire->chain, HUGE_VAL));
   const double silence = fmax(SILENCE * wire->loudest, STILLNESS);
-  if (is_let_go(wire) || chain_amplitude(&wire->chain, wire->a1) < silence) {
+  const bool is_silent = !wire->is_kept && chain_amplitude(&wire->chain, wire->a1) < silence;
+  if (is_let_go(wire) || is_silent) {
     wire_sleep(wire);
   } else {
     chain_settle(&wire->chain);
@@ -127,6 +130,8 @@ bool wire_string(Wire* wire, const TuningTarget* target, uint32_t limit) {
   chain_set(&wire->chain, coefs);
   note_design(wire, target->tone.f0_hz, coefs);
   wire->given = 0.0;
+  wire->lent = 0.0;
+  wire->is_kept = false;
   wire->loudest = 0.0;
   wire->n_choked = 0;
   wire->is_choked = false;

@@ -36,6 +36,7 @@ typedef struct {
   uint32_t phase;            /**< Strings of different phases are not looked at together */
   double rate_hz;            /**< Steps per second [Hz] */
   double given;              /**< Motion that its plucks gave it: √ω times an amplitude */
+  double lent;               /**< The same, that other strings may have given it */
   double f0_hz;              /**< Pitch it has or is gliding to [Hz] */
   double a1;                 /**< (ω0 h)² of its fundamental */
   double headroom;           /**< Of its coefficients, see tuning_headroom() */
@@ -43,6 +44,7 @@ typedef struct {
   uint32_t n_choked;         /**< Frames in which it has been choked */
   uint32_t n_until_look;     /**< Frames until it is next looked at, see wire_pass() */
   bool is_awake;             /**< Whether it moves */
+  bool is_kept;              /**< Something else moves it: it is not put to sleep */
   bool is_choked; /**< Whether it is to be let go soon, however slow its upper modes are */
 } Wire;
 

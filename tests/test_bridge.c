@@ -105,7 +105,8 @@ static void string_on_the_bridge_has_its_pitch_and_decay(void** state) {
     const uint32_t n_masses = draw_masses(&random, &target);
     const BridgeHold hold = draw_hold(&random, &target);
     const Bridge bridge = bridge_at(target.rate_hz);
-    const TuningTarget own = bridge_correct(&bridge, target, n_masses, hold);
+    BridgeShift shift = {0};
+    const TuningTarget own = bridge_correct(&bridge, target, n_masses, hold, &shift);
     strung = (Strung){.bridge = bridge};
     add_string(&own, n_masses, hold);
     const Tone tone = tone_near(&target);
