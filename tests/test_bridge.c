@@ -114,6 +114,7 @@ static void string_on_the_bridge_has_its_pitch_and_decay(void** state) {
     const double g = -expm1(-2.0 / (target.rate_hz * target.tone.tau_s));
     const double g_own = -expm1(-2.0 / (target.rate_hz * own.tone.tau_s));
     const double z0 = g_own * (1.0 - own.loss);
+    assert_true(z0 > (0.5 * (1.0 - target.loss) - 1e-6) * g);
     if (z0 > (0.5 * (1.0 - target.loss) + 1e-6) * g) {
       worst_decay = fmax(worst_decay, fabs(tone.tau_s / target.tone.tau_s - 1.0));
       ++n_exact;
