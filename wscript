@@ -10,6 +10,7 @@ Sources are found by where they lie, so that a new one needs no line here:
     tools/make_*.c     a program each, which makes a part of the plugin while that is built
     tests/test_*.c     a test program each; the other tests/*.c are linked into all of them
     tests/plant_*.c    a library each, built as the plugin is, with a fault that a test has to find
+    tests/hosts/*.c    a program each, for the tests that run hosts; watch_*.c are one library, which is preloaded into them
     tests/test_*.sh    run as tests too
 """
 
@@ -220,6 +221,10 @@ def build_tests(bld):
     for node in bld.path.ant_glob('tests/plant_*.c'):
         bld.shlib(source=[node], target='tests/' + node.name[:-len('.c')], env=env, install_path=None,
                   linkflags=bld.env.PLUGIN_LINKFLAGS)
+    for node in bld.path.ant_glob('tests/hosts/*.c', excl='tests/hosts/watch_*.c'):
+        bld.program(source=[node], target='tests/hosts/' + node.name[:-len('.c')], use='hooke_helpers ' + use, install_path=None)
+    bld.shlib(source=bld.path.ant_glob('tests/hosts/watch_*.c'), target='tests/hosts/watch', env=env, use='LILV LV2 DL',
+              install_path=None)
     for node in bld.path.ant_glob('tests/test_*.c'):
         bld.program(source=[node], target='tests/' + node.name[:-len('.c')], use='hooke_helpers ' + use,
                     install_path=None)
