@@ -5,6 +5,7 @@
 #include "tests/hosts/watch.h"
 
 #include <lilv/lilv.h>
+#include <lv2/atom/util.h>
 #include <lv2/worker/worker.h>
 
 #include <dlfcn.h>
@@ -18,7 +19,7 @@
 #include <xmmintrin.h>
 #endif
 
-enum { MOST_FEATURES = 64, FIRST_OUTPUT = 2, N_OUTPUTS = 2 };
+enum { MOST_FEATURES = 64, CONTROL = 0, FIRST_OUTPUT = 2, N_OUTPUTS = 2 };
 
 /* The bits by which small numbers count as zero. */
 enum { FLUSH_BITS = 0x8040 };
@@ -30,12 +31,15 @@ typedef struct {
   const LV2_Worker_Schedule* host; /* Its worker */
   LV2_Worker_Schedule schedule;    /* The one that is shown */
   LV2_Feature feature;
+  const LV2_Atom_Sequence* control;
   const float* outputs[N_OUTPUTS];
   unsigned long n_runs;
   unsigned long n_empty;
   unsigned long n_works;
   unsigned long n_silent; /* Frames since the last that was not 0 */
   uint32_t longest;
+  unsigned long n_notes;
+  int64_t place; /* Of the first note in its run [frames] */
   double peak;
 } Plugin;
 
@@ -82,9 +86,23 @@ static void listen(Plugin* self, uint32_t n_frames) {
   }
 }
 
+static void count_notes(Plugin* self) {
+  if (!self->control) {
+    return;
+  }
+  LV2_ATOM_SEQUENCE_FOREACH(self->control, event) {
+    const uint8_t* const bytes = (const uint8_t*)(event + 1);
+    if (event->body.size == 3 && (bytes[0] & 0xF0) == 0x90 && bytes[2] > 0) {
+      self->place = self->n_notes ? self->place : event->time.frames;
+      ++self->n_notes;
+    }
+  }
+}
+
 static void run(LV2_Handle handle, uint32_t n_frames) {
   Plugin* const self = find(handle);
   const unsigned before = flushing();
+  count_notes(self);
   watch_enter(number_of(self));
   self->real->run(handle, n_frames);
   if (flushing() != before) {
@@ -100,6 +118,9 @@ static void run(LV2_Handle handle, uint32_t n_frames) {
 
 static void connect_port(LV2_Handle handle, uint32_t port, void* data) {
   Plugin* const self = find(handle);
+  if (port == CONTROL) {
+    self->control = data;
+  }
   if (port >= FIRST_OUTPUT && port < FIRST_OUTPUT + N_OUTPUTS) {
     self->outputs[port - FIRST_OUTPUT] = data;
   }
@@ -130,9 +151,10 @@ static void tell(const Plugin* self) {
   if (!log) {
     return;
   }
-  (void)fprintf(log, "%s runs=%lu empty=%lu longest=%u works=%lu peak=%g silent=%lu",
+  (void)fprintf(log,
+                "%s runs=%lu empty=%lu longest=%u works=%lu notes=%lu place=%ld peak=%g silent=%lu",
                 self->real->URI, self->n_runs, self->n_empty, self->longest, self->n_works,
-                self->peak, self->n_silent);
+                self->n_notes, (long)self->place, self->peak, self->n_silent);
   for (WatchKind kind = 0; kind < WATCH_KINDS; ++kind) {
     (void)fprintf(log, " %s=%lu", names[kind], watch_count(number_of(self), kind));
   }
