@@ -12,13 +12,14 @@ Sources are found by where they lie, so that a new one needs no line here:
     tests/plant_*.c    a library each, built as the plugin is, with a fault that a test has to find
     tests/hosts/*.c    a program each, for the tests that run hosts; watch_*.c are one library, which is preloaded into them
     tests/test_*.sh    run as tests too
+    tests/fuzz/        the fuzz harnesses, see tests/fuzzing.py
 """
 
 import json
 import os
 import subprocess
 
-from tests import runner
+from tests import fuzzing, memcheck, runner
 from waflib import Build, Configure, Context, Errors, Options
 
 APPNAME = 'hooke'
@@ -46,7 +47,14 @@ MATHS = ['-fno-math-errno', '-fno-trapping-math', '-ffp-contract=off']
 # For the files that are run only where the processor has them, and whose loops are worth contracting.
 AVX2 = ['-mavx2', '-mfma', '-ffp-contract=fast']
 
-SANITIZERS = ['-fsanitize=address,undefined', '-fno-sanitize-recover=all', '-fno-omit-frame-pointer']
+SANITIZERS = ['-fsanitize=address,undefined,float-cast-overflow', '-fno-sanitize-recover=all',
+              '-fno-omit-frame-pointer']
+
+# The variant for `test --sanitize`.
+SANITIZED = 'sanitized'
+
+# That nothing is left to be found elsewhere, in the plugin; sanitizers are.
+WHOLE = ['-Wl,-z,defs', '-static-libgcc']
 
 SYSTEM_PREFIXES = ['/usr', '/usr/local', os.path.expanduser('~/.local')]
 
@@ -65,7 +73,9 @@ def options(opt):
     opt.add_option('--lv2dir', help='configure: where LV2 bundles are installed [<prefix>/lib/lv2]')
     opt.add_option('--user', action='store_true', help='configure: install for this user, in ~/.lv2 and ~/.local')
     opt.add_option('--debug', action='store_true', help='configure: build for a debugger')
-    opt.add_option('--sanitize', action='store_true', help='configure: ASan and UBSan, stopping at the first error')
+    opt.add_option('--sanitize', action='store_true',
+                   help='configure, test: ASan and UBSan, stopping at the first error; test: in build/sanitized')
+    opt.add_option('--valgrind', action='store_true', help='test: under valgrind')
     opt.add_option('--werror', action='store_true', help='configure: let a warning fail the build')
     opt.add_option('--long', action='store_true', help='test: run the long versions of the tests as well')
     opt.add_option('--only', default='', metavar='WORD', help='test: run the programs with WORD in their name')
@@ -80,6 +90,10 @@ def configure(conf):
     check_libraries(conf)
     set_flags(conf)
     conf.env.CHOICES = {name: getattr(conf.options, name) for name in CONFIGURE_OPTIONS}
+    fuzzing.configure(conf)
+    conf.setenv(SANITIZED, conf.env)
+    add_sanitizers(conf)
+    conf.setenv('')
     conf.msg('Installing the program in', conf.env.BINDIR)
     conf.msg('Installing the bundle in', conf.env.LV2DIR)
 
@@ -128,15 +142,19 @@ def set_flags(conf):
     flags = ['-std=c11', '-fvisibility=hidden'] + optimization + MATHS + WARNINGS
     if conf.options.werror:
         flags += ['-Werror']
-    if conf.options.sanitize:
-        flags += ['-g'] + SANITIZERS
-        conf.env.prepend_value('LINKFLAGS', SANITIZERS)
     conf.env.prepend_value('CFLAGS', flags)
     conf.env.append_value('INCLUDES', [conf.path.abspath()])
     if conf.env.DEST_OS != 'darwin':
-        conf.env.PLUGIN_LINKFLAGS = ['-Wl,--exclude-libs,ALL', '-Wl,--as-needed']
-        if not conf.options.sanitize:
-            conf.env.PLUGIN_LINKFLAGS += ['-Wl,-z,defs', '-static-libgcc']
+        conf.env.PLUGIN_LINKFLAGS = ['-Wl,--exclude-libs,ALL', '-Wl,--as-needed'] + WHOLE
+    if conf.options.sanitize:
+        add_sanitizers(conf)
+
+
+def add_sanitizers(conf):
+    if SANITIZERS[0] not in conf.env.CFLAGS:
+        conf.env.append_value('CFLAGS', ['-g'] + SANITIZERS)
+        conf.env.prepend_value('LINKFLAGS', SANITIZERS)
+        conf.env.PLUGIN_LINKFLAGS = [flag for flag in conf.env.PLUGIN_LINKFLAGS if flag not in WHOLE]
 
 
 # Building
@@ -158,7 +176,7 @@ def build(bld):
 # An option of configure given to a later command would be lost in silence.
 def refuse_late_options(bld):
     for name in CONFIGURE_OPTIONS:
-        given = getattr(Options.options, name)
+        given = None if name == 'sanitize' and bld.cmd == 'test' else getattr(Options.options, name)
         if given not in (None, default_prefix, bld.env.CHOICES.get(name)):
             bld.fatal('--%s is for configure: run `./waf configure` with all the options you want' % name)
 
@@ -228,6 +246,7 @@ def build_tests(bld):
     for node in bld.path.ant_glob('tests/test_*.c'):
         bld.program(source=[node], target='tests/' + node.name[:-len('.c')], use='hooke_helpers ' + use,
                     install_path=None)
+    fuzzing.build_replays(bld, use)
 
 
 # A static library fit for the plugin as well; none when there is nothing to put into it.
@@ -285,6 +304,10 @@ class TestContext(Build.BuildContext):
     cmd = 'test'
     fun = 'test'
 
+    def __init__(self, **kw):
+        super().__init__(**kw)
+        self.variant = SANITIZED if Options.options.sanitize else ''
+
 
 class DemoContext(Build.BuildContext):
     cmd = 'demo'
@@ -294,6 +317,8 @@ class DemoContext(Build.BuildContext):
 def test(bld):
     """builds, then runs all tests, or with --only some of them"""
     build(bld)
+    if any(name.startswith('fuzz_') for name, _ in test_programs(bld)):
+        fuzzing.build(bld, ['core/%s.c' % room for room in LAPACK_ROOMS], AVX2)
     bld.add_post_fun(run_tests)
 
 
@@ -330,7 +355,10 @@ def run_environment(bld):
 def run_tests(bld):
     programs = test_programs(bld)
     timeout = bld.options.timeout or (3600 if bld.options.long else 600)
-    results = runner.run_all(programs, bld.bldnode.abspath(), run_environment(bld), bld.jobs, timeout)
+    environment = run_environment(bld)
+    if bld.options.valgrind:
+        programs = memcheck.wrap(programs, environment, bld.bldnode.abspath())
+    results = runner.run_all(programs, bld.bldnode.abspath(), environment, bld.jobs, timeout)
     failed = [result['name'] for result in results if result['counts']['FAILED']]
     if failed:
         bld.fatal('failed: ' + ' '.join(failed))
@@ -340,8 +368,9 @@ def run_tests(bld):
 
 def test_programs(bld):
     compiled = [node.name[:-len('.c')] for node in bld.path.ant_glob('tests/test_*.c')]
-    programs = [(name, bld.bldnode.make_node('tests/' + name).abspath()) for name in compiled]
-    programs += [(node.name, node.abspath()) for node in bld.path.ant_glob('tests/test_*.sh')]
+    programs = [(name, [bld.bldnode.make_node('tests/' + name).abspath()]) for name in compiled]
+    programs += [(node.name, [node.abspath()]) for node in bld.path.ant_glob('tests/test_*.sh')]
+    programs += fuzzing.programs(bld)
     return [program for program in programs if bld.options.only in program[0]]
 
 

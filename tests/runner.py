@@ -12,10 +12,10 @@ SKIP = 77
 
 
 def run_all(programs, directory, environment, jobs, timeout_s):
-    """Run (name, path) pairs in `directory`, `jobs` at a time, those named test_speed… alone; report each.
+    """Run (name, command) pairs in `directory`, `jobs` at a time, those named test_speed… alone; report each.
 
     The logs go to tests/NAME.log under `directory`. A result is a dictionary: name, counts (PASSED, FAILED, SKIPPED),
-    trouble (why it failed, if not by its tests), output, seconds.
+    trouble (why it failed, if not by its tests, or was skipped), output, seconds.
     """
     alone = [program for program in programs if program[0].startswith('test_speed')]
     side_by_side = [program for program in programs if program not in alone]
@@ -39,12 +39,12 @@ def run_all(programs, directory, environment, jobs, timeout_s):
 
 
 # The output goes to a file rather than a pipe: a pipe held open by a stray child would never end.
-def run_test(directory, environment, timeout_s, running, name, path):
+def run_test(directory, environment, timeout_s, running, name, command):
     log = os.path.join(directory, 'tests', name + '.log')
     os.makedirs(os.path.dirname(log), exist_ok=True)
     start = time.monotonic()
     with open(log, 'wb') as output:
-        process = subprocess.Popen([path], cwd=directory, env=environment, stdin=subprocess.DEVNULL, stdout=output,
+        process = subprocess.Popen(command, cwd=directory, env=environment, stdin=subprocess.DEVNULL, stdout=output,
                                    stderr=subprocess.STDOUT, start_new_session=True)
         running.add(process)
         try:
@@ -68,10 +68,11 @@ def kill(process):
 # Count the single tests. However a program ended, it is never taken for a success that it was not.
 def judge(name, code, output, seconds):
     counts = {word: cmocka_count(word, output) for word in ['PASSED', 'FAILED', 'SKIPPED']}
-    if name.endswith('.sh'):
+    if name.endswith('.sh') or name.startswith('fuzz_'):
         counts = {'PASSED': int(code == 0), 'FAILED': 0, 'SKIPPED': 0}
     if code == SKIP and not any(counts.values()):
-        counts['SKIPPED'], code = 1, 0
+        counts['SKIPPED'] = 1
+        return {'name': name, 'counts': counts, 'trouble': last_line(output), 'output': output, 'seconds': seconds}
     trouble = ''
     if code is None:
         trouble = 'timed out'
@@ -84,6 +85,11 @@ def judge(name, code, output, seconds):
     if trouble:
         counts['FAILED'] = max(1, counts['FAILED'])
     return {'name': name, 'counts': counts, 'trouble': trouble, 'output': output, 'seconds': seconds}
+
+
+# What a test that could not run says of it.
+def last_line(output):
+    return (output.strip().splitlines() or [''])[-1]
 
 
 def cmocka_count(word, output):

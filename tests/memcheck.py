@@ -1,0 +1,30 @@
+"""The tests under valgrind; the wscript's `test --valgrind` is made of it."""
+
+import os
+
+COMMAND = ['valgrind', '-q', '--error-exitcode=99', '--leak-check=full', '--errors-for-leak-kinds=definite',
+           '--show-leak-kinds=definite']
+
+# What measures time, or watches the heap or counts instructions itself, has nothing to measure there; and libFuzzer
+# programs are watched already.
+MEASURING = ['test_speed', 'test_bench', 'test_plugin_realtime', 'fuzz_']
+
+
+def wrap(programs, environment, directory):
+    """Put (name, command) pairs under valgrind, and the program that scripts run too.
+
+    Return the pairs; `environment` is changed. What cannot run there says so and is skipped.
+    """
+    program = os.path.join(directory, 'hooke-valgrind')
+    with open(program, 'w', encoding='utf-8') as script:
+        script.write('#!/bin/sh\nexec %s "%s" "$@"\n' % (' '.join(COMMAND), environment['HOOKE_BIN']))
+    os.chmod(program, 0o755)
+    environment['HOOKE_BIN'] = program
+    return [(name, wrapped(name, command)) for name, command in programs]
+
+
+def wrapped(name, command):
+    for word in MEASURING:
+        if name.startswith(word):
+            return ['sh', '-c', 'echo "it measures what valgrind changes"; exit 77']
+    return command if name.endswith('.sh') else COMMAND + command
