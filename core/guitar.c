@@ -1,5 +1,6 @@
 #include "core/guitar.h"
 
+#include "core/aligned.h"
 #include "core/guitar_mixer.h"
 #include "core/guitar_string.h"
 
@@ -97,7 +98,7 @@ Guitar* guitar_new(double rate_hz) {
   const size_t size = chain_size(GUITAR_MAX_MASSES);
   guitar->rate_hz = rate_hz;
   guitar->n_gesture = wire_gesture_frames(rate_hz);
-  guitar->memory = aligned_alloc(CHAIN_ALIGNMENT, 2 * GUITAR_WIRES * size);
+  guitar->memory = aligned_new(CHAIN_ALIGNMENT, 2 * GUITAR_WIRES * size);
   if (!guitar->memory) {
     guitar_free(guitar);
     return NULL;
@@ -114,7 +115,7 @@ Guitar* guitar_new(double rate_hz) {
 
 void guitar_free(Guitar* guitar) {
   if (guitar) {
-    free(guitar->memory);
+    aligned_free(guitar->memory);
     free(guitar);
   }
 }

@@ -1,5 +1,6 @@
 #include "core/harp.h"
 
+#include "core/aligned.h"
 #include "core/harp_hands.h"
 #include "core/harp_mixer.h"
 
@@ -78,7 +79,7 @@ Harp* harp_new(double rate_hz) {
   }
   harp->rate_hz = rate_hz;
   harp->n_gesture = wire_gesture_frames(rate_hz);
-  harp->memory = aligned_alloc(CHAIN_ALIGNMENT, HARP_STRINGS * chain_size(CHAIN_MAX_MASSES));
+  harp->memory = aligned_new(CHAIN_ALIGNMENT, HARP_STRINGS * chain_size(CHAIN_MAX_MASSES));
   if (!harp->memory) {
     harp_free(harp);
     return NULL;
@@ -92,7 +93,7 @@ Harp* harp_new(double rate_hz) {
 
 void harp_free(Harp* harp) {
   if (harp) {
-    free(harp->memory);
+    aligned_free(harp->memory);
     free(harp);
   }
 }
