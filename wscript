@@ -13,6 +13,8 @@ Sources are found by where they lie, so that a new one needs no line here:
     tests/hosts/*.c    a program each, for the tests that run hosts; watch_*.c are one library, which is preloaded into them
     tests/test_*.sh    run as tests too
     tests/fuzz/        the fuzz harnesses, see tests/fuzzing.py
+
+The rest lies in tools/packing.py (installing, packing), tools/cross.py (other machines) and tests/runner.py.
 """
 
 import json
@@ -20,7 +22,8 @@ import os
 import subprocess
 
 from tests import fuzzing, memcheck, runner
-from waflib import Build, Configure, Context, Errors, Options
+from tools import cross, packing
+from waflib import Build, Configure, Context, Options
 
 APPNAME = 'hooke'
 VERSION = '0.2.0'
@@ -56,13 +59,8 @@ SANITIZED = 'sanitized'
 # That nothing is left to be found elsewhere, in the plugin; sanitizers are.
 WHOLE = ['-Wl,-z,defs', '-static-libgcc']
 
-SYSTEM_PREFIXES = ['/usr', '/usr/local', os.path.expanduser('~/.local')]
-
-# Left out of an archive made where git cannot say what is tracked.
-UNTRACKED = ['build', '.git', '.waf-cache', '.lock-waf*', 'hooke-*.tar.*', '**/__pycache__']
-
 # What is fixed by `configure` and cannot be changed by a later command.
-CONFIGURE_OPTIONS = ['prefix', 'lv2dir', 'user', 'debug', 'sanitize', 'werror']
+CONFIGURE_OPTIONS = ['prefix', 'lv2dir', 'user', 'debug', 'sanitize', 'werror', 'no_tests', 'cross']
 
 
 # Options and configuration
@@ -70,6 +68,7 @@ CONFIGURE_OPTIONS = ['prefix', 'lv2dir', 'user', 'debug', 'sanitize', 'werror']
 
 def options(opt):
     opt.load('compiler_c')
+    cross.options(opt)
     opt.add_option('--lv2dir', help='configure: where LV2 bundles are installed [<prefix>/lib/lv2]')
     opt.add_option('--user', action='store_true', help='configure: install for this user, in ~/.lv2 and ~/.local')
     opt.add_option('--debug', action='store_true', help='configure: build for a debugger')
@@ -77,16 +76,19 @@ def options(opt):
                    help='configure, test: ASan and UBSan, stopping at the first error; test: in build/sanitized')
     opt.add_option('--valgrind', action='store_true', help='test: under valgrind')
     opt.add_option('--werror', action='store_true', help='configure: let a warning fail the build')
+    opt.add_option('--no-tests', action='store_true', help='configure: leave out the programs that are only tests')
     opt.add_option('--long', action='store_true', help='test: run the long versions of the tests as well')
-    opt.add_option('--only', default='', metavar='WORD', help='test: run the programs with WORD in their name')
+    opt.add_option('--only', default='', metavar='WORD', help='test: run those with one of WORD,WORD,… in their name')
     opt.add_option('--timeout', type=int, metavar='S', help='test: let each program take S seconds [600; --long: 3600]')
 
 
 def configure(conf):
     """finds the compiler and the libraries, and fixes the options"""
     keep_environment(conf)
+    cross.prepare(conf, check_package)
     conf.load('compiler_c')
-    set_directories(conf)
+    packing.set_directories(conf)
+    choose_parts(conf)
     check_libraries(conf)
     set_flags(conf)
     conf.env.CHOICES = {name: getattr(conf.options, name) for name in CONFIGURE_OPTIONS}
@@ -106,27 +108,30 @@ def keep_environment(conf):
     conf.options.environment = {name: conf.environ[name] for name in names if name in conf.environ}
 
 
-def set_directories(conf):
-    home = os.path.expanduser('~')
-    lv2dir = None
-    if conf.options.user:
-        conf.env.PREFIX = os.path.join(home, '.local')
-        conf.env.BINDIR = os.path.join(home, '.local', 'bin')
-        lv2dir = os.path.join(home, '.lv2')
-    conf.env.LV2DIR = conf.options.lv2dir or lv2dir or os.path.join(conf.env.PREFIX, 'lib', 'lv2')
+# The bundle always.
+def choose_parts(conf):
+    conf.env.WITH_TOOLS = not conf.options.cross or bool(conf.env.CROSS_SYSTEM)
+    conf.env.WITH_TESTS = conf.env.WITH_TOOLS and not conf.options.no_tests
 
 
 def check_libraries(conf):
     for lib in ['m', 'dl', 'pthread']:
         conf.check_cc(lib=lib, uselib_store=lib.upper(), mandatory=lib == 'm')
-    for package in ['lv2', 'lilv-0', 'sndfile', 'smf', 'cmocka', 'lapack']:
-        store = package.split('-')[0].upper()
-        conf.check_cfg(package=package, uselib_store=store, args=['--cflags', '--libs'])
-        # Their headers are not held to our warnings.
-        for path in conf.env['INCLUDES_' + store]:
-            conf.env.append_value('CFLAGS_' + store, ['-isystem', path])
-        conf.env['INCLUDES_' + store] = []
+    for_tools = ['lilv-0', 'sndfile', 'smf', 'lapack'] if conf.env.WITH_TOOLS else []
+    for package in ['lv2'] + for_tools + (['cmocka'] if conf.env.WITH_TESTS else []):
+        check_package(conf, package)
+    if conf.options.cross and not conf.env.CROSS_SYSTEM:
+        cross.use_lv2_headers(conf)
     conf.env.SPEC_LV2DIR = spec_lv2dir(conf)
+
+
+def check_package(conf, package):
+    store = package.split('-')[0].upper()
+    conf.check_cfg(package=package, uselib_store=store, args=['--cflags', '--libs'])
+    # Their headers are not held to our warnings.
+    for path in conf.env['INCLUDES_' + store]:
+        conf.env.append_value('CFLAGS_' + store, ['-isystem', path])
+    conf.env['INCLUDES_' + store] = []
 
 
 # Where lv2 itself has its bundles, which a host needs to read ours.
@@ -144,7 +149,12 @@ def set_flags(conf):
         flags += ['-Werror']
     conf.env.prepend_value('CFLAGS', flags)
     conf.env.append_value('INCLUDES', [conf.path.abspath()])
-    if conf.env.DEST_OS != 'darwin':
+    if conf.env.DEST_CPU == 'aarch64':
+        conf.env.CFLAGS_HELPERS = ['-fno-tree-loop-vectorize']  # gcc 12 fails to compile tests/harps.c with it
+    if conf.env.DEST_OS == 'win32':
+        conf.env.PLUGIN_LINKFLAGS = ['-static']
+        cross.suit_windows(conf)
+    elif conf.env.DEST_OS != 'darwin':
         conf.env.PLUGIN_LINKFLAGS = ['-Wl,--exclude-libs,ALL', '-Wl,--as-needed'] + WHOLE
     if conf.options.sanitize:
         add_sanitizers(conf)
@@ -165,12 +175,14 @@ def build(bld):
     refuse_late_options(bld)
     build_core(bld)
     build_bundle(bld)
-    build_tools(bld)
-    build_tests(bld)
+    if bld.env.WITH_TOOLS:
+        build_tools(bld)
+    if bld.env.WITH_TESTS:
+        build_tests(bld)
     bld.add_post_fun(link_bundle)
     bld.add_post_fun(write_compile_commands)
-    if bld.is_install < 0:
-        spare_system_directories(bld)
+    if bld.is_install:
+        packing.keep_account_of_directories(bld)
 
 
 # An option of configure given to a later command would be lost in silence.
@@ -191,29 +203,32 @@ def build_core(bld):
                 use='M hooke_avx2', defines=['HOOKE_AVX2'])
     else:
         library(bld, 'hooke_core', bld.path.ant_glob('core/*.c', excl=in_lapack_rooms + [for_avx2]), use='M')
-    library(bld, 'hooke_analysis', bld.path.ant_glob(in_lapack_rooms), use='hooke_core LAPACK')
+    if bld.env.WITH_TOOLS:
+        library(bld, 'hooke_analysis', bld.path.ant_glob(in_lapack_rooms), use='hooke_core LAPACK')
 
 
 def build_bundle(bld):
     bundle = '${LV2DIR}/hooke.lv2'
     env = bld.env.derive()
-    env.cshlib_PATTERN = '%s.so'
+    env.cshlib_PATTERN = '%s' + library_ending(bld)
     sources = bld.path.ant_glob('plugin/*.c')
     if sources:
-        bld.shlib(source=sources + [make_programs(bld)], target='hooke.lv2/hooke', name='hooke_plugin', env=env, install_path=bundle,
-                  use='hooke_core LV2 M', linkflags=bld.env.PLUGIN_LINKFLAGS)
+        bld.shlib(source=sources + [make_programs(bld)], target='hooke.lv2/hooke', name='hooke_plugin', env=env,
+                  install_path=bundle, install_path_implib=None,
+                  use='hooke_core LV2 M PTHREAD', linkflags=bld.env.PLUGIN_LINKFLAGS)
     library(bld, 'hooke_parts', sources, use='hooke_core LV2 M')
     for node in bld.path.ant_glob(['ttl/*.ttl', 'presets/*.ttl']):
         bld(features='subst', is_copy=True, source=node, target='hooke.lv2/' + node.name, install_path=bundle)
     for node in bld.path.ant_glob('ttl/*.ttl.in'):
         bld(features='subst', source=node, target='hooke.lv2/' + node.name[:-len('.in')], install_path=bundle,
-            LIB_EXT='.so')
+            LIB_EXT=library_ending(bld))
 
 
 # The presets as C, made from the bundle as it is built.
 def make_programs(bld):
     maker = bld.bldnode.find_or_declare('make_programs')
-    bld.program(source='tools/make_programs.c', target=maker, use='LILV LV2', install_path=None)
+    bld.program(source='tools/make_programs.c', target=maker, use='LILV LV2', install_path=None,
+                env=bld.all_envs.get('native', bld.env).derive())
     turtle = [bld.bldnode.find_or_declare('hooke.lv2/' + node.name.replace('.in', ''))
               for node in bld.path.ant_glob(['ttl/*.ttl', 'ttl/*.ttl.in', 'presets/*.ttl'])]
     table = bld.bldnode.find_or_declare('plugin/programs_table.c')
@@ -222,18 +237,23 @@ def make_programs(bld):
     return table
 
 
+def library_ending(bld):
+    return '.dll' if bld.env.DEST_OS == 'win32' else '.so'
+
+
 def build_tools(bld):
     defines = ['HOOKE_VERSION="%s"' % VERSION, 'HOOKE_LV2DIR="%s"' % bld.env.LV2DIR]
     use = 'hooke_analysis hooke_core LILV SNDFILE SMF LV2 M DL PTHREAD'
     library(bld, 'hooke_tools', bld.path.ant_glob('tools/*.c', excl=['tools/main.c', 'tools/make_*.c']), use=use, defines=defines)
     for node in bld.path.ant_glob('tools/main.c'):
         bld.program(source=[node], target='hooke', name='hooke_program', use='hooke_tools ' + use, defines=defines)
+    bld.install_files('${MANDIR}/man1', 'doc/hooke.1')
 
 
 def build_tests(bld):
     use = 'hooke_parts hooke_tools hooke_analysis hooke_core CMOCKA LILV SNDFILE SMF LAPACK LV2 M DL PTHREAD'
     helpers = bld.path.ant_glob('tests/*.c', excl=['tests/test_*.c', 'tests/plant_*.c'])
-    library(bld, 'hooke_helpers', helpers, use=use)
+    library(bld, 'hooke_helpers', helpers, use=use + ' HELPERS')
     env = bld.env.derive()
     env.cshlib_PATTERN = '%s.so'
     for node in bld.path.ant_glob('tests/plant_*.c'):
@@ -253,23 +273,6 @@ def build_tests(bld):
 def library(bld, name, sources, **more):
     if sources:
         bld.stlib(source=sources, target=name, cflags=['-fPIC'], install_path=None, **more)
-
-
-# waf removes each directory which it has emptied; keep those which a system has for everybody.
-def spare_system_directories(bld):
-    prefix = os.path.normpath(bld.env.PREFIX)
-    kept = [bld.env.BINDIR, os.path.join(prefix, 'lib')] if prefix in SYSTEM_PREFIXES else []
-
-    def remove_emptied(_, path):
-        directory = os.path.dirname(path)
-        try:
-            while directory not in kept:
-                os.rmdir(directory)
-                directory = os.path.dirname(directory)
-        except OSError:
-            pass  # not empty, or gone
-
-    Build.inst.rm_empty_dirs = remove_emptied
 
 
 # A host takes whatever lies in a directory of LV2_PATH for a bundle, so show it one with nothing but ours.
@@ -346,6 +349,7 @@ def run_environment(bld):
     env['HOOKE_BUNDLE'] = os.path.join(build_dir, 'lv2', 'hooke.lv2')
     env['HOOKE_BIN'] = os.path.join(build_dir, 'hooke')
     env['HOOKE_SOURCE'] = bld.path.abspath()
+    env['WAFDIR'] = os.path.dirname(os.path.dirname(Context.__file__))
     env.setdefault('UBSAN_OPTIONS', 'print_stacktrace=1')
     if bld.options.long:
         env['HOOKE_TEST_LONG'] = '1'
@@ -368,10 +372,13 @@ def run_tests(bld):
 
 def test_programs(bld):
     compiled = [node.name[:-len('.c')] for node in bld.path.ant_glob('tests/test_*.c')]
-    programs = [(name, [bld.bldnode.make_node('tests/' + name).abspath()]) for name in compiled]
-    programs += [(node.name, [node.abspath()]) for node in bld.path.ant_glob('tests/test_*.sh')]
-    programs += fuzzing.programs(bld)
-    return [program for program in programs if bld.options.only in program[0]]
+    compiled = compiled if bld.env.WITH_TESTS else []
+    run = bld.env.CROSS_RUN
+    programs = [(name, run + [bld.bldnode.make_node('tests/' + name).abspath()]) for name in compiled]
+    if not bld.env.CHOICES['cross']:
+        programs += [(node.name, [node.abspath()]) for node in bld.path.ant_glob('tests/test_*.sh')]
+        programs += fuzzing.programs(bld)
+    return [program for program in programs if any(word in program[0] for word in bld.options.only.split(','))]
 
 
 # Packing
@@ -380,14 +387,4 @@ def test_programs(bld):
 def dist(ctx):
     """packs the tracked files into hooke-<version>.tar.xz"""
     ctx.algo = 'tar.xz'
-    ctx.files = tracked_files(ctx) or ctx.path.ant_glob('**', excl=UNTRACKED)
-
-
-# None in a tree that was itself unpacked from such an archive.
-def tracked_files(ctx):
-    try:
-        names = ctx.cmd_and_log(['git', 'ls-files', '-z'], quiet=Context.BOTH).split('\0')
-    except Errors.WafError:
-        return []
-    nodes = [ctx.path.find_node(name) for name in names if name]
-    return [node for node in nodes if node]
+    ctx.files = packing.files_to_pack(ctx)
