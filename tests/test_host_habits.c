@@ -101,6 +101,7 @@ static void left_and_right_may_be_one_buffer(void** state) {
   host_connect(host, host_port_index(host, "out_left"), both);
   host_connect(host, host_port_index(host, "out_right"), both);
   habits_play(host);
+  assert_memory_not_equal(alone.left, alone.right, HABITS_FRAMES * sizeof(float));
   for (size_t at = 0; at < HABITS_FRAMES; at += BLOCK) {
     assert_true(host_run(host, BLOCK));
     for (size_t k = 0; k < BLOCK; ++k) {

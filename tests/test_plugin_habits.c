@@ -1,15 +1,12 @@
 /* What hosts do, each of them somewhere: none of it may crash, reach outside, or change the sound.
- */
+ * What has broken other plugins is in test_host_habits.c, for both of ours. */
 #include "plugin/strings_ports.h"
 #include "tests/measure.h"
 #include "tests/strings_host.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -130,71 +127,6 @@ static void events_outside_the_block_are_brought_inside(void** state) {
   }
 }
 
-/* In the order in which they stand, none before the one that stands before it. */
-static void events_out_of_order_are_played_in_their_order(void** state) {
-  (void)state;
-  const uint8_t first[3] = {0x90, 45, 100};
-  const uint8_t second[3] = {0x90, 57, 100};
-  Sound sounds[2] = {sound_new(N_FRAMES), sound_new(N_FRAMES)};
-  for (int i = 0; i < 2; ++i) {
-    Host* const host = strings_open(RATE, BLOCK);
-    assert_true(host_midi_raw(host, 100, first, 3));
-    assert_true(host_midi_raw(host, i == 0 ? 100 : 20, second, 3));
-    strings_run(host, &sounds[i], 0, N_FRAMES, BLOCK);
-    host_free(host);
-  }
-  assert_same_and_free(&sounds[0], &sounds[1]);
-}
-
-static void left_and_right_may_be_one_buffer(void** state) {
-  (void)state;
-  Sound alone = play_alone();
-  Host* const host = strings_open(RATE, BLOCK);
-  float both[BLOCK];
-  host_connect(host, PORT_OUT_LEFT, both);
-  host_connect(host, PORT_OUT_RIGHT, both);
-  play_piece(host, 0);
-  for (size_t at = 0; at < N_FRAMES; at += BLOCK) {
-    assert_true(host_run(host, BLOCK));
-    for (size_t i = 0; i < BLOCK; ++i) {
-      assert_true(both[i] == 0.5f * (alone.left[at + i] + alone.right[at + i]));
-    }
-  }
-  sound_free(&alone);
-  host_free(host);
-}
-
-/* A deactivation in mid-note, or two, and on whatever thread, brings it to rest. */
-static void* deactivate_twice(void* data) {
-  Host* const host = data;
-  LilvInstance* const instance = host_instance(host);
-  host_deactivate(host);
-  lilv_instance_deactivate(instance);
-  lilv_instance_activate(instance);
-  lilv_instance_activate(instance);
-  return NULL;
-}
-
-static void activation_begins_anew_on_any_thread(void** state) {
-  (void)state;
-  Sound alone = play_alone();
-  Host* const host = strings_open(RATE, BLOCK);
-  Sound sound = sound_new(N_FRAMES);
-  for (int i = 0; i < 2; ++i) {
-    pthread_t thread;
-    strings_controller(host, 0, STRINGS_PEDAL, 127);
-    strings_bend(host, 0, -2.0);
-    strings_note_on(host, 1, 60, 127);
-    strings_run(host, &sound, 0, 3 * BLOCK + 7, BLOCK);
-    assert_int_equal(pthread_create(&thread, NULL, deactivate_twice, host), 0);
-    assert_int_equal(pthread_join(thread, NULL), 0);
-  }
-  play_piece(host, 0);
-  strings_run(host, &sound, 0, N_FRAMES, BLOCK);
-  assert_same_and_free(&alone, &sound);
-  host_free(host);
-}
-
 static void two_instances_do_not_hear_each_other(void** state) {
   (void)state;
   Sound alone = play_alone();
@@ -271,9 +203,6 @@ int main(void) {
       cmocka_unit_test(any_port_may_be_null_alone),
       cmocka_unit_test(an_empty_run_plays_its_events),
       cmocka_unit_test(events_outside_the_block_are_brought_inside),
-      cmocka_unit_test(events_out_of_order_are_played_in_their_order),
-      cmocka_unit_test(left_and_right_may_be_one_buffer),
-      cmocka_unit_test(activation_begins_anew_on_any_thread),
       cmocka_unit_test(two_instances_do_not_hear_each_other),
       cmocka_unit_test(it_wants_a_map_and_nothing_else),
       cmocka_unit_test(no_rate_is_refused),
