@@ -132,7 +132,7 @@ plays_with_a_state() {
     alike 'what is played live' rendered.wav live.wav 0 $heard "$late"
     play fast.wav $seconds freewheel
     alike 'what is played faster than time' rendered.wav fast.wav 0 $heard "$late"
-    in_tune 'what is played live' live.wav 0.2 2.2 110 "$(awk -v t="$(value tracking)" 'BEGIN { print 2 ^ (2 * t) }')"
+    in_tune 'what is played live' live.wav 0.2 2.2 110 "$(awk -v t="$(value tracking)" 'BEGIN { printf "%.9g", 2 ^ (2 * t) }')"
     order 'set damping 6'
     render_song rendered.wav masses=100 damping=6 release=0.05
     play again.wav $seconds freewheel
@@ -146,6 +146,15 @@ hooke_strings_is_played_live_and_faster_than_time() {
 
 hooke_guitar_is_played_live_and_faster_than_time() {
     plays_with_a_state urn:hooke:guitar 'Clean Bridge' 0.800000
+}
+
+# Key 45 is 24 of 19 equal steps below A4.
+a_state_brings_its_tuning_file_back() {
+    keep urn:hooke:strings Default damping=1 release=0.05 scale="$HOOKE_SOURCE/tests/scales/19-equal.scl"
+    start_host "$uri" -l state
+    play tuned.wav $seconds freewheel
+    in_tune 'with the file of the state' tuned.wav 0.2 2.2 "$(awk 'BEGIN { printf "%.9g", 440 * 2 ^ (-24 / 19) }')" 2
+    stop_host
 }
 
 jalv_lists_all_presets() {
@@ -163,7 +172,7 @@ jalv_lists_all_presets() {
 no_run_does_what_an_audio_thread_must_not() {
     grep -v 'peak=0 ' watched >heard
     mv heard watched
-    watched urn:hooke:strings 1
+    watched urn:hooke:strings 2
     watched urn:hooke:guitar 1
 }
 
@@ -193,6 +202,7 @@ start_server
 for claim in \
     hooke_strings_is_played_live_and_faster_than_time \
     hooke_guitar_is_played_live_and_faster_than_time \
+    a_state_brings_its_tuning_file_back \
     jalv_lists_all_presets \
     no_run_does_what_an_audio_thread_must_not \
     the_watch_sees_what_is_planted; do

@@ -1,7 +1,7 @@
 /* Keep a plugin's state in a directory, as jalv does and as it reads it.
 
-     keep URI PRESET DIRECTORY [SYMBOL=VALUE]... */
-#include "tools/host.h"
+     keep URI PRESET DIRECTORY [SYMBOL=VALUE]... [scale=FILE.scl] */
+#include "tests/scale_host.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,6 +14,10 @@ static bool set(Host* host, const char* setting) {
     return false;
   }
   (void)snprintf(symbol, sizeof(symbol), "%.*s", (int)(sign - setting), setting);
+  if (!strcmp(symbol, "scale")) {
+    scale_set(host, SCALE_PARAMETER, sign + 1);
+    return true;
+  }
   return host_set(host, symbol, (float)atof(sign + 1));
 }
 
@@ -28,7 +32,8 @@ int main(int argc, char** argv) {
   for (int i = 4; i < argc; ++i) {
     is_kept = is_kept && set(host, argv[i]);
   }
-  is_kept = is_kept && host_run(host, 256) && host_save_state_dir(host, argv[3]);
+  is_kept =
+      is_kept && host_run(host, 256) && host_run(host, 256) && host_save_state_dir(host, argv[3]);
   host_free(host);
   return is_kept ? EXIT_SUCCESS : EXIT_FAILURE;
 }
