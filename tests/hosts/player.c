@@ -159,6 +159,7 @@ static bool play(Player* self, bool is_freewheeling) {
   }
   if (is_freewheeling) {
     (void)self->jack.set_freewheel(self->client, 0);
+    wait_a_step(); /* Or the server may wait for a client that is gone */
   }
   (void)self->jack.deactivate(self->client);
   (void)self->jack.client_close(self->client);
