@@ -20,7 +20,7 @@ needs() {
     command -v "$1" >/dev/null || skip "there is no $1; on Debian: apt-get install $2"
 }
 
-if nm "$HOOKE_BUNDLE/hooke.so" 2>/dev/null | grep -q __asan_; then
+if nm -D "$HOOKE_BUNDLE/hooke.so" 2>/dev/null | grep -q __asan_; then
     skip 'the plugin was built with sanitizers, which hosts were not'
 fi
 
