@@ -130,7 +130,7 @@ static void take_over(Bow* bow, double spring) {
 }
 
 /* Where it can be bowed: fraction of the length from the nearer wall, then from the one. */
-static double place_of(double wanted, double angle1) {
+double bow_place(double wanted, double angle1) {
   const double least = fmax(LEAST_PLACE, SLIP_FRAMES * angle1 / (2.0 * PI));
   double beta = fmin(fmax(fmin(wanted, 1.0 - wanted), least), MOST_PLACE);
   if (fabs(beta - NODE) < NODE_WIDTH) {
@@ -144,7 +144,7 @@ static uint32_t frames_of(double time_s, double rate_hz) {
 }
 
 void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, double rate_hz) {
-  const double place = place_of(stroke.place, angle1);
+  const double place = bow_place(stroke.place, angle1);
   const double beta = fmin(place, 1.0 - place);
   const double speed = 8.0 * beta * (1.0 - beta) * stroke.amplitude * angle1 / (2.0 * PI);
   /* Schelleng's most: the corner brings 2 √k1 b/β, and friction falls by so much at its slip. */

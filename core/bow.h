@@ -77,11 +77,17 @@ typedef struct {
   bool is_active;
 } Bow;
 
+/** The place where a string can be bowed that is nearest to a wanted one: off the walls, the middle
+ * and the node of the fourth partial.  @param angle1  As of bow_start() */
+double bow_place(double wanted, double angle1);
+
 /**
    Put a bow to a string and begin to draw it; its strength is 1.
 
    One that is at work already turns to the new stroke in its attack, from the place, the speed and
    the force that it has.
+
+   @param angle1  The fundamental's digital angular frequency 2πF/rate [rad per sample]
 */
 void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, double rate_hz);
 

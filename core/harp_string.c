@@ -1,5 +1,6 @@
 #include "core/harp_string.h"
 
+#include "core/harp_balance.h"
 #include "core/harp_target.h"
 
 #include <math.h>
@@ -9,11 +10,9 @@ static const double PI = 3.14159265358979323846;
 /* A hammer's mass, as a share of the string's. */
 static const double HAMMER_MASS = 0.25;
 
-/* What strikes and bows are made stronger by, as each sense hears them, to be as loud as plucks. */
-static const double strike_gains[] = {
-    [SENSE_DISPLACEMENT] = 1.5, [SENSE_VELOCITY] = 3.0, [SENSE_FORCE] = 3.1};
-static const double bow_gains[] = {
-    [SENSE_DISPLACEMENT] = 1.2, [SENSE_VELOCITY] = 0.9, [SENSE_FORCE] = 0.85};
+/* As far from the nearer wall as hammers and bows go, of the length. */
+static const double FARTHEST_STRIKE = 0.47;
+static const double FARTHEST_BOW = 0.15;
 
 /* How long a bow takes to come to its speed, and to be lifted [s]. */
 static const double BOW_ATTACK_S = 0.04;
@@ -176,25 +175,39 @@ void harp_string_choke(HarpString* string, const Patch* patch, uint32_t n_glide)
   }
 }
 
+/* In the middle both walls throw a hammer's wave back at once, and what comes of it hangs on every
+ * mass; and far from the walls a string under a bow is all too ready to slip twice a period. */
+static double place_for(Exciter exciter, double wanted) {
+  const double from_wall = fmin(wanted, 1.0 - wanted);
+  const double most = exciter == EXCITER_STRIKE ? FARTHEST_STRIKE
+                      : exciter == EXCITER_BOW  ? FARTHEST_BOW
+                                                : 0.5;
+  const double at = fmin(from_wall, most);
+  return wanted > 0.5 ? 1.0 - at : at;
+}
+
 static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
   const Chain* const chain = &string->wire.chain;
   const double rate_hz = string->wire.rate_hz;
   const double angle1 = 2.0 * PI * string->wire.f0_hz / rate_hz;
+  const HarpBalance balance = {harp_target(string, patch, string->wire.f0_hz), chain->n_masses,
+                               string->key, HAMMER_MASS};
+  pluck.place = place_for(patch->exciter, pluck.place);
+  pluck.amplitude *= harp_balance_gain(patch, &balance, pluck);
   switch (patch->exciter) {
   case EXCITER_PLUCK:
     wire_pluck(&string->wire, pluck);
     look(string);
     break;
   case EXCITER_STRIKE: {
-    const Strike strike = {pluck.place, pluck.hardness, HAMMER_MASS,
-                           strike_gains[patch->sense] * pluck.amplitude};
+    const Strike strike = {pluck.place, pluck.hardness, HAMMER_MASS, pluck.amplitude};
     hammer_throw(&string->hammer, chain, strike, angle1, rate_hz);
     wire_feed(&string->wire);
     break;
   }
   case EXCITER_BOW: {
-    const Stroke stroke = {pluck.place, pluck.hardness, bow_gains[patch->sense] * pluck.amplitude,
-                           BOW_ATTACK_S, BOW_RELEASE_S};
+    const Stroke stroke = {pluck.place, pluck.hardness, pluck.amplitude, BOW_ATTACK_S,
+                           BOW_RELEASE_S};
     bow_start(&string->bow, chain, stroke, angle1, rate_hz);
     if (!string->ear.is_active) {
       const TuningTarget target = harp_target(string, patch, string->wire.f0_hz);

@@ -33,8 +33,9 @@ typedef struct {
   double pickup;        /**< Where strings are read, fraction of the length, 0 to 1 */
   double spread; /**< Between the left and the right pickup, fraction of the length, 0 to 0.5; past
                     an end, folded back */
-  Exciter exciter; /**< What strings are played with */
-  double pluck; /**< Where strings are plucked, struck or bowed, fraction of the length, 0 to 1 */
+  Exciter exciter;  /**< What strings are played with */
+  double pluck;     /**< Where strings are plucked, struck or bowed, fraction of the length, 0 to 1;
+                       hammers keep off the middle, and bows near the walls */
   double hardness;  /**< Of what plucks or strikes, or pressure of the bow, 0 to 1 */
   double release_s; /**< τ once the key is up [s], > 0; a damper never makes a string ring longer */
   double tuning_hz;    /**< A4 [Hz], > 0 */

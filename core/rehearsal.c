@@ -8,8 +8,14 @@
 static const double PI = 3.14159265358979323846;
 
 /* The most masses that are rehearsed with, steps that a period then has, periods that are watched,
- * and tries. */
-enum { MOST_MASSES = 20, PERIOD_STEPS = 54, MOST_PERIODS = 2, N_TRIES = 4 };
+ * tries, and tries where its speed does not matter much. */
+enum {
+  MOST_MASSES = REHEARSAL_PARTIALS,
+  PERIOD_STEPS = 54,
+  MOST_PERIODS = 2,
+  N_TRIES = 4,
+  N_HEARD_TRIES = 2
+};
 
 /* Felt: force grows as compression^EXPONENT; a blow as hard as it was thrown loses LOSS of it. */
 static const double EXPONENT = 2.5;
@@ -170,4 +176,42 @@ HammerMake rehearsal_make(uint32_t n_masses, Strike wanted, double angle1) {
   }
   throw_at(&make, velocity * angle1 / m.angle1);
   return make;
+}
+
+/* The square of what mode k was pushed by. */
+static double square_of_push(const Model* m, uint32_t k) {
+  const double angle = PI * k / (m->n + 1.0);
+  const double twice = 2.0 * cos(angle);
+  const double a = m->k1 * (2.0 - twice);
+  double before = 0.0;
+  double sine = sin(angle);
+  double x = 0.0;
+  double u = 0.0;
+  for (uint32_t i = 1; i <= m->n; ++i) {
+    const double next = twice * sine - before;
+    x += sine * m->x[i];
+    u += sine * m->u[i];
+    before = sine;
+    sine = next;
+  }
+  return u * u + a * x * (x - u);
+}
+
+uint32_t rehearsal_spectrum(uint32_t n_masses,
+                            Strike wanted,
+                            double angle1,
+                            double shares[REHEARSAL_PARTIALS]) {
+  Model m = model_of(n_masses, wanted.place, angle1);
+  HammerMake make = make_of(wanted, m.angle1);
+  const double goal = 4.0 / PI * wanted.amplitude * share_of_pluck(n_masses, &wanted);
+  double velocity = 0.5 * wanted.amplitude * m.angle1 / wanted.mass;
+  for (int i = 0; i < N_HEARD_TRIES; ++i) {
+    throw_at(&make, velocity);
+    velocity *= goal / strike(&m, &make, GONE * wanted.amplitude);
+  }
+  const double first = square_of_push(&m, 1);
+  for (uint32_t k = 1; k <= m.n; ++k) {
+    shares[k - 1] = square_of_push(&m, k) / first;
+  }
+  return m.n;
 }

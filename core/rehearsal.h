@@ -14,6 +14,9 @@
 
 #include "core/hammer.h"
 
+/** Partials that a string of enough masses is rehearsed with. */
+enum { REHEARSAL_PARTIALS = 20 };
+
 /**
    Make the hammer for a strike.
 
@@ -26,5 +29,16 @@
    @param angle1    Its fundamental's digital angular frequency [rad per sample], 0 to π
 */
 HammerMake rehearsal_make(uint32_t n_masses, Strike strike, double angle1);
+
+/**
+   Find what a strike pushes each mode by, squared, of the first's.
+
+   @param[out] shares  As many as are returned
+   @return How many modes there are: n_masses or REHEARSAL_PARTIALS, if that is less
+*/
+uint32_t rehearsal_spectrum(uint32_t n_masses,
+                            Strike strike,
+                            double angle1,
+                            double shares[REHEARSAL_PARTIALS]);
 
 #endif

@@ -13,4 +13,7 @@
 */
 double loudness_lufs(const float* left, const float* right, size_t n);
 
+/** The same at any rate [Hz]. */
+double loudness_lufs_at(double rate_hz, const float* left, const float* right, size_t n);
+
 #endif

@@ -33,9 +33,17 @@ static double velocity_gain(uint32_t key) {
   return VELOCITY_GAIN * 0.5 / sin(0.5 * angle1);
 }
 
+/* What is heard says how hard a string is played: so all are played as one of them is. */
+static void pluck_alike(Harp* harp, const Patch* patch, uint32_t key) {
+  const Patch displacement = plain(SENSE_DISPLACEMENT);
+  harp_set_patch(harp, &displacement, 0);
+  harp_note_on(harp, 0, key, 100);
+  harp_set_patch(harp, patch, 0);
+}
+
 static void play(Harp* harp, const Patch* patch, uint32_t key, float sound[2][FRAMES]) {
   harps_restart(harp, patch);
-  harp_note_on(harp, 0, key, 100);
+  pluck_alike(harp, patch, key);
   harps_run(harp, FRAMES, sound[0], sound[1]);
 }
 
@@ -45,8 +53,8 @@ play_switch(Harp* harp, Sense from, Sense to, uint32_t n_glide, float sound[2][F
   const Patch before = plain(from);
   const Patch after = plain(to);
   harps_restart(harp, &before);
-  harp_note_on(harp, 0, 45, 100);
-  harp_note_on(harp, 0, 57, 100);
+  pluck_alike(harp, &before, 45);
+  pluck_alike(harp, &before, 57);
   harps_run(harp, SWITCH, sound[0], sound[1]);
   harp_set_patch(harp, &after, n_glide);
   harps_run(harp, FRAMES - SWITCH, sound[0] + SWITCH, sound[1] + SWITCH);

@@ -1,6 +1,8 @@
 /* The ear that judges the instruments hears what the recommendation says. */
 #include "tests/loudness.h"
 
+#include "tests/oracle.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -74,6 +76,31 @@ static void the_loudest_400_ms_count(void** state) {
   assert_true(isinf(loudness_of(997.0, 0.0, RATE)));
 }
 
+static void any_rate_hears_alike(void** state) {
+  static float at_44[44100];
+  static float at_96[96000];
+  static const double tones_hz[] = {30.0, 60.0, 440.0, 3000.0};
+  (void)state;
+  for (int t = 0; t < 4; ++t) {
+    const double turn = 2.0 * 3.14159265358979323846 * tones_hz[t];
+    static float at_48[48000];
+    for (int i = 0; i < 96000; ++i) {
+      at_96[i] = 0.1f * (float)sin(turn * i / 96000.0);
+      at_48[i / 2] = at_96[i & ~1];
+    }
+    for (int i = 0; i < 44100; ++i) {
+      at_44[i] = 0.1f * (float)sin(turn * i / 44100.0);
+    }
+    const double lufs = loudness_lufs(at_48, at_48, 48000);
+    assert_within("dB at 48 kHz", fabs(loudness_lufs_at(48000.0, at_48, at_48, 48000) - lufs),
+                  1e-6);
+    assert_within("dB at 44.1 kHz", fabs(loudness_lufs_at(44100.0, at_44, at_44, 44100) - lufs),
+                  0.02);
+    assert_within("dB at 96 kHz", fabs(loudness_lufs_at(96000.0, at_96, at_96, 96000) - lufs),
+                  0.02);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_full_tone_on_one_side_is_three_below),
@@ -81,6 +108,7 @@ int main(void) {
       cmocka_unit_test(both_sides_are_three_louder_than_one),
       cmocka_unit_test(the_ear_is_dull_below_and_keen_above),
       cmocka_unit_test(the_loudest_400_ms_count),
+      cmocka_unit_test(any_rate_hears_alike),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -153,6 +153,8 @@ static void bench_open(Bench* bench, double rate_hz) {
   if (!bench->host || !bench->samples) {
     fail_msg("%s", bench->host ? "out of memory" : error);
   }
+  /* What is measured is the strings. */
+  assert_true(host_set(bench->host, "limiter", 0.0f));
 }
 
 static void bench_close(Bench* bench) {
