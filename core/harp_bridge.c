@@ -56,9 +56,9 @@ static HarpBridgeEnd end_of(const Chain* chain, const Grip* grip) {
 /* Strings that follow each other and need the same loop are stepped by one call. */
 static void add_work(HarpBridge* bridge, uint32_t i, const ChainPart* part, uint32_t n_taps) {
   const ChainLoop loop = chain_loop(part->chain, n_taps);
-  HarpBridgeBatch* const last = &bridge->batches[bridge->n_batches - 1];
+  HarpBridgeBatch* const last = i > 0 ? &bridge->batches[bridge->n_batches - 1] : NULL;
   bridge->works[i] = chain_work(part, n_taps);
-  if (i > 0 && last->loop == loop && last->n < CHAIN_MAX_BATCH) {
+  if (last && last->loop == loop && last->n < CHAIN_MAX_BATCH) {
     ++last->n;
   } else {
     bridge->batches[bridge->n_batches++] = (HarpBridgeBatch){loop, i, 1};
