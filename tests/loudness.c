@@ -28,7 +28,14 @@ static const Ear standard = {
     {1.0, -2.0, 1.0, -1.99004745483398, 0.99007225036621},
 };
 
-/* Those for any rate, from what they are before they are made for one. */
+/* What the recommendation leaves in the second filter's numerator, which lifts all a little. */
+static double low_lift(double rate_hz) {
+  const double l = tan(PI * 38.13547087602444 / rate_hz);
+  return 1.0 + l / 0.5003270373238773 + l * l;
+}
+
+/* Those for any rate, from what they are before they are made for one; the lift is that of 48 kHz.
+ */
 static Ear ear_for(double rate_hz) {
   const double high = 1.584864701130855;
   const double band = 1.258720930232562;
@@ -37,11 +44,12 @@ static Ear ear_for(double rate_hz) {
   const double a = 1.0 + kq + k * k;
   const double l = tan(PI * 38.13547087602444 / rate_hz);
   const double lq = l / 0.5003270373238773;
-  const double b = 1.0 + lq + l * l;
+  const double b = low_lift(rate_hz);
+  const double lift = low_lift(48000.0) / b;
   return (Ear){
       .head = {(high + band * kq + k * k) / a, 2.0 * (k * k - high) / a,
                (high - band * kq + k * k) / a, 2.0 * (k * k - 1.0) / a, (1.0 - kq + k * k) / a},
-      .low = {1.0, -2.0, 1.0, 2.0 * (l * l - 1.0) / b, (1.0 - lq + l * l) / b},
+      .low = {lift, -2.0 * lift, lift, 2.0 * (l * l - 1.0) / b, (1.0 - lq + l * l) / b},
   };
 }
 
