@@ -81,7 +81,7 @@ double bridges_complement(size_t order, double* matrix) {
   for (size_t p = 0; p + 1 < order; ++p) {
     const double pivot = matrix[p + p * order];
     if (!(pivot > 0.0)) {
-      return NAN;
+      return (double)NAN;
     }
     for (size_t j = p + 1; j < order; ++j) {
       const double share = matrix[p + j * order] / pivot;

@@ -114,7 +114,7 @@ static void ports_that_are_back_are_moved_as_any(void** state) {
   char* const saved = save_as_text(pair.program);
   restore_text(pair.program, saved);
   programs_assert_pair(pair);
-  programs_set(pair, "loss", nextafterf(0.01f, 1.0f));
+  programs_set(pair, "loss", (double)nextafterf(0.01f, 1.0f));
   programs_assert_pair(pair);
   lilv_free(saved);
   programs_close_pair(pair);

@@ -63,7 +63,8 @@ LV2_URID plug_urid(const char* uri) {
 }
 
 /* A line of the log is whole, whatever is in it. */
-static int print_line(LV2_Log_Handle handle, LV2_URID type, const char* format, va_list arguments) {
+__attribute__((format(printf, 3, 0))) static int
+print_line(LV2_Log_Handle handle, LV2_URID type, const char* format, va_list arguments) {
   static char line[LINE];
   (void)handle;
   FUZZ_CLAIM(type > 0);
