@@ -60,9 +60,9 @@ value() {
     told "$1" VALUE "$2" | awk -F '|' -v label="$3" '$1 == label { print $2 }'
 }
 
-# Ardour's engine now and then refuses a port of a new track, whatever the plugin; so it may try five times.
+# Ardour's engine now and then refuses a port of a new track, whatever the plugin; so it may try often.
 make_session() {
-    for _ in 1 2 3 4 5; do
+    for _ in $(seq 15); do
         rm -rf "$session"
         set -- make "$session" Strings=urn:hooke:strings Guitar=urn:hooke:guitar \
             'Strings.preset=Concert Harp' 'Guitar.preset=Clean Bridge' \
