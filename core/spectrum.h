@@ -5,6 +5,7 @@
 
    - a pluck pushes the string over a finger's width (core/exciter.h), the transform of whose raised
      cosine, cut off at the walls as it may be, has a closed form in the cosines of its two edges;
+     of few masses, those under it are summed one by one;
    - a strike's is the spectrum of a hammer's rehearsal (core/rehearsal.h), which falls on as it
      last did where that has no more masses;
    - under a bow the string is carried along but for a moment of every period, so all harmonics of
@@ -37,8 +38,9 @@ typedef struct {
   double angle1;   /**< The fundamental's digital angular frequency [rad per sample] */
   double first;    /**< Of a bow: what the first partial's power is multiplied by */
   double corner;   /**< Of a bow: the square of the partial above which the corner is round */
-  uint32_t n_shares;                 /**< Partials that its rehearsal is believed of */
-  double shares[REHEARSAL_PARTIALS]; /**< Their push squared, of the first's */
+  uint32_t
+      n_shares; /**< Partials that its rehearsal is believed of; or all, of few plucked masses */
+  double shares[REHEARSAL_PARTIALS]; /**< Their push squared: of the first's; or of `push` */
   double last;                       /**< The mean of the last of them, from which the rest go on */
   double fall;                       /**< What it changes by from a partial to the next, ≤ 1 */
 } Spectrum;
