@@ -58,7 +58,7 @@ static double transform(const Spectrum* s, double k, const double cosines[2]) {
 /* The mean of each mode's sine over the masses that are under the finger, squared. */
 static uint32_t sum_few(uint32_t n_masses, double centre, double width, double* shares) {
   const double step = 1.0 / (n_masses + 1.0);
-  double weights[REHEARSAL_PARTIALS];
+  double weights[SPECTRUM_FEW];
   double sum = 0.0;
   for (uint32_t i = 0; i < n_masses; ++i) {
     const double distance = ((i + 1.0) * step - centre) / width;
@@ -97,7 +97,7 @@ Spectrum spectrum_of_pluck(uint32_t n_masses, Pluck pluck, double angle1) {
       .edges = {cos(PI * from), cos(PI * to)},
       .angle1 = angle1,
   };
-  if (n_masses <= REHEARSAL_PARTIALS) {
+  if (n_masses <= SPECTRUM_FEW) {
     s.push = 4.0 / PI * sin(angle1);
     s.n_shares = sum_few(n_masses, centre, width / WIDER, s.shares);
   }

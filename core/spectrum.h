@@ -28,6 +28,9 @@
 
 #include <stdint.h>
 
+/** So few plucked masses are summed one by one. */
+enum { SPECTRUM_FEW = 48 };
+
 /** Make one by a function below; amplitudes are for a pluck, strike or stroke of amplitude 1. */
 typedef struct {
   Exciter exciter;
@@ -40,9 +43,9 @@ typedef struct {
   double corner;   /**< Of a bow: the square of the partial above which the corner is round */
   uint32_t
       n_shares; /**< Partials that its rehearsal is believed of; or all, of few plucked masses */
-  double shares[REHEARSAL_PARTIALS]; /**< Their push squared: of the first's; or of `push` */
-  double last;                       /**< The mean of the last of them, from which the rest go on */
-  double fall;                       /**< What it changes by from a partial to the next, ≤ 1 */
+  double shares[SPECTRUM_FEW]; /**< Their push squared: of the first's; or of `push` */
+  double last;                 /**< The mean of the last of them, from which the rest go on */
+  double fall;                 /**< What it changes by from a partial to the next, ≤ 1 */
 } Spectrum;
 
 /**

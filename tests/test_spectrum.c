@@ -123,7 +123,7 @@ static void plucks_give_what_is_told(void** state) {
   Random random = random_start();
   double worst[2] = {0.0};
   for (int trial = 0; trial < 600; ++trial) {
-    Strung strung = any_string(&random, REHEARSAL_PARTIALS + 1, 300);
+    Strung strung = any_string(&random, SPECTRUM_FEW + 1, 300);
     const Pluck pluck = any_pluck(&random);
     double* const kind = &worst[is_cut(strung.chain.n_masses, pluck)];
     *kind = fmax(*kind, pluck_and_tell(&strung, pluck));
@@ -136,7 +136,7 @@ static void plucks_give_what_is_told(void** state) {
 static void plucks_as_wide_as_a_mode_give_what_is_told(void** state) {
   (void)state;
   double worst = 0.0;
-  for (uint32_t n_masses = 31; n_masses <= 63; n_masses += 2) {
+  for (uint32_t n_masses = 51; n_masses <= 99; n_masses += 2) {
     Strung strung;
     strung_key(&strung, memory, 33, RATE, n_masses, 1e9);
     assert_int_equal(strung.chain.n_masses, n_masses);
@@ -152,7 +152,7 @@ static void plucks_of_few_masses_give_what_is_told(void** state) {
   Random random = random_start();
   double worst = 0.0;
   for (int trial = 0; trial < 600; ++trial) {
-    Strung strung = any_string(&random, 1, REHEARSAL_PARTIALS);
+    Strung strung = any_string(&random, 1, SPECTRUM_FEW);
     worst = fmax(worst, pluck_and_tell(&strung, any_pluck(&random)));
   }
   /* Masses are pushed in floats. */
