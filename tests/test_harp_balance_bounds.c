@@ -156,11 +156,34 @@ static void a_wall_is_still_silent(void** state) {
   harp_free(harp);
 }
 
+/* Hammers keep off the middle and bows near the walls, on the side that is asked for. */
+static void each_side_of_a_string_can_be_played(void** state) {
+  (void)state;
+  static const double asked[] = {0.1, 0.49, 0.51, 0.9};
+  static const double struck[] = {0.1, 0.47, 0.53, 0.9};
+  static const double bowed[] = {0.1, 0.15, 0.85, 0.9};
+  double worst = 0.0;
+  for (int p = 0; p < N_PLACES; ++p) {
+    for (uint32_t way = HARPS_N_SENSES; way < HARPS_N_WAYS; ++way) {
+      Patch patch = harps_patch(way);
+      patch.pluck = asked[p];
+      Harp* const harp = harps_new(48000.0, &patch);
+      harp_note_on(harp, 0, 60, 100);
+      const HarpString* const string = &harp->strings[60];
+      worst = fmax(worst, fabs(way < BOWED ? string->hammer.make.place - struck[p]
+                                           : string->bow.place.now - bowed[p]));
+      harp_free(harp);
+    }
+  }
+  assert_within("place", worst, 1e-12);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gains_of_one_mass_are_those_by_hand),
       cmocka_unit_test(gains_are_bounded),
       cmocka_unit_test(what_is_too_low_is_not_played_harder),
+      cmocka_unit_test(each_side_of_a_string_can_be_played),
       cmocka_unit_test(a_wall_is_still_silent),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
