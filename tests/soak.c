@@ -194,10 +194,10 @@ static void play_block(Soak* soak) {
   if (happens(soak, n_frames, 0.3)) {
     move_controller(soak, random_below(&soak->random, n_frames));
   }
-  if (happens(soak, n_frames, 15.0)) {
+  if (happens(soak, n_frames, 5.0)) {
     change_program(soak, random_below(&soak->random, n_frames));
   }
-  if (happens(soak, n_frames, 20.0)) {
+  if (happens(soak, n_frames, 6.0)) {
     load_preset(soak);
   }
   if (happens(soak, n_frames, 1.5)) {
