@@ -120,8 +120,6 @@ static void play_keys(Soak* soak, uint32_t n_frames) {
   }
 }
 
-/* Everything else */
-
 static void move_controller(Soak* soak, uint32_t frame) {
   static const uint8_t controllers[] = {1, 2, 7, 11, 64, 64, 64, 66, 67, 74};
   Random* const random = &soak->random;
@@ -286,10 +284,12 @@ void soak_silence(Soak* soak) {
   send(soak, 0, 0xB0U, STRINGS_PEDAL, 127);
   play_keys(soak, SOAK_BLOCK);
   wait(soak, 0.3);
-  for (uint32_t channel = 0; channel < N_CHANNELS; ++channel) {
-    send(soak, 0, 0xB0U | channel, STRINGS_SOUND_OFF, 0);
-  }
+  send(soak, 0, 0xB0U, STRINGS_SOUND_OFF, 0);
   wait(soak, 1.0);
+  assert_at_rest(soak);
+  send(soak, 0, 0x90U, 60, 100);
+  send(soak, SOAK_BLOCK / 2, 0x80U, 60, 64);
+  wait(soak, 2.0);
   assert_at_rest(soak);
 }
 

@@ -45,8 +45,9 @@ void soak_sit_down(Soak* soak);
  * rest of itself within two seconds more. */
 void soak_play(Soak* soak, uint64_t seed, double seconds);
 
-/** All sound off while keys and pedals are down: fail unless there are exact zeros a second later.
- */
+/** After soak_play(), all sound off while keys and the pedal are down: fail unless there are exact
+ * zeros a second later, and again two seconds after a key that is struck and let go: no pedal holds
+ * it. */
 void soak_silence(Soak* soak);
 
 void soak_stop(Soak* soak);
