@@ -146,21 +146,22 @@ static uint32_t stretch_of(const HarpString* string) {
 }
 
 /* Run a string that something happens to on the way. */
-static void run_in_pieces(const Harp* harp,
-                          HarpString* string,
-                          const ChainPart* part,
-                          uint32_t n_frames,
-                          uint32_t n_taps,
-                          float** out) {
+static void run_in_pieces(Harp* harp, uint32_t i, uint32_t n_frames, uint32_t n_taps, float** out) {
+  HarpString* const string = harp->awake[i];
   for (uint32_t done = 0; done < n_frames && string->wire.is_awake;) {
     const uint32_t n = least(n_frames - done, stretch_of(string));
+    const uint32_t n_masses = string->wire.chain.n_masses;
     float* rest[CHAIN_MAX_TAPS];
     for (uint32_t t = 0; t < n_taps; ++t) {
       rest[t] = out[t] + done;
     }
-    chain_run_all(part, 1, n, n_taps, rest);
+    chain_run_all(&harp->parts[i], 1, n, n_taps, rest);
     harp_string_act(string);
     harp_string_pass(string, &harp->patch, n);
+    /* A swing may have taken some of its masses, and with them the places where it is read. */
+    if (string->wire.chain.n_masses != n_masses) {
+      add_part(harp, i, string, &harp->reading);
+    }
     done += n;
   }
 }
@@ -178,7 +179,7 @@ run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps, fl
       harp_string_pass(harp->awake[first], &harp->patch, n_frames);
     }
     if (i < n_parts) {
-      run_in_pieces(harp, harp->awake[i], &harp->parts[i], n_frames, n_taps, out);
+      run_in_pieces(harp, i, n_frames, n_taps, out);
     }
     first = i + 1;
   }

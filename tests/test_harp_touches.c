@@ -437,18 +437,19 @@ static void play_storm(Harp* harp, uint64_t seed, uint32_t cut, uint32_t n_frame
   }
 }
 
+/* Often enough for a bowed string to lose masses in the middle of a call. */
 static void touches_are_the_same_however_calls_are_cut(void** state) {
-  static const uint32_t cuts[] = {1, 64, 0};
+  enum { ROUNDS = 60 };
   (void)state;
   Random random = random_start();
   const Patch patch = patch_of(0);
   Harp* const harp = harps_new(RATE, &patch);
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < ROUNDS; ++round) {
     const uint64_t seed = random_below(&random, 1U << 31);
     play_storm(harp, seed, MOST, 2 * RATE, left);
     assert_true(isfinite(measure_peak(left, 2 * RATE)) && measure_peak(left, 2 * RATE) > 1e-3);
-    for (size_t c = 0; c < sizeof(cuts) / sizeof(cuts[0]); ++c) {
-      play_storm(harp, seed, cuts[c], 2 * RATE, other);
+    for (uint32_t cut = 1; cut <= (round < 3 ? 64 : 1); cut *= 8) {
+      play_storm(harp, seed, cut == 8 ? 0 : cut, 2 * RATE, other);
       assert_memory_equal(left, other, 2 * RATE * sizeof(float));
     }
   }
