@@ -161,7 +161,8 @@ void chain_settle(Chain* chain) {
   }
   if (tuning_mode(chain->now, chain->n_masses, 1).g >= WEAK_DAMPING) {
     chain_hold(chain, CHAIN_FLOAT);
-  } else if (chain->is_shared || !chain_whole_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &whole) ||
+  } else if (chain->is_shared ||
+             !chain_whole_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &whole) ||
              !(whole.noise <= quiet)) {
     chain_hold(chain, CHAIN_DOUBLE);
   } else if (chain->numbers != CHAIN_FIXED || chain->gain > TOO_SMALL * whole.gain ||

@@ -189,7 +189,8 @@ static void each_channel_has_its_own_bank(void** state) {
 static void what_there_is_not_is_ignored(void** state) {
   static const struct {
     uint32_t upper, lower, program;
-  } cases[] = {{0, 0, 127}, {0, 127, 0}, {0, 1, 100}, {0, 0, 100}, {1, 0, 1}, {127, 2, 1}, {0, 8, 0}};
+  } cases[] = {{0, 0, 127}, {0, 127, 0}, {0, 1, 100}, {0, 0, 100},
+               {1, 0, 1},   {127, 2, 1}, {0, 8, 0}};
   (void)state;
   for (size_t i = 0; i < sizeof(cases) / sizeof(cases[0]); ++i) {
     Host* preset;
