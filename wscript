@@ -85,6 +85,7 @@ def options(opt):
 def configure(conf):
     """finds the compiler and the libraries, and fixes the options"""
     keep_environment(conf)
+    know_new_options(conf)
     cross.prepare(conf, check_package)
     conf.load('compiler_c')
     packing.set_directories(conf)
@@ -106,6 +107,13 @@ def keep_environment(conf):
     conf.environ.update({name: value for name, value in kept.items() if name not in conf.environ})
     names = ['CC', 'AR', 'CFLAGS', 'CPPFLAGS', 'LDFLAGS', 'LINKFLAGS', 'PKG_CONFIG_PATH']
     conf.options.environment = {name: conf.environ[name] for name in names if name in conf.environ}
+
+
+# Nor does it know the options that came after it.
+def know_new_options(conf):
+    for name in CONFIGURE_OPTIONS:
+        if not hasattr(conf.options, name):
+            setattr(conf.options, name, None)
 
 
 # The bundle always.
