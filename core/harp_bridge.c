@@ -33,6 +33,7 @@ static void rest(HarpBridge* bridge) {
   bridge->loudest = 0.0;
   bridge->level = 0.0;
   bridge->n_until_look = HARP_BRIDGE_FRAMES;
+  bridge->next_key = 0;
 }
 
 static void read_tie(HarpBridgeEnd* end, const BridgeTie* tie) {

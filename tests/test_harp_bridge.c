@@ -73,6 +73,33 @@ static void bridge_leaves_nothing_behind(void** state) {
   harp_free(harp);
 }
 
+static void press_pedal_and_play(Harp* harp, uint32_t n_frames) {
+  harp_pedal(harp, 0, 1.0);
+  harp_note_on(harp, 0, 45, 127);
+  harp_run(harp, n_frames, left, right);
+}
+
+/* Nor does it remember which string woke last: strings wake in the order that they have on a new
+ * harp. */
+static void strings_wake_in_the_same_order_again(void** state) {
+  (void)state;
+  static float fresh[RATE];
+  const Patch patch = patch_with(0.7);
+  Harp* const harp = harps_new(RATE, &patch);
+  press_pedal_and_play(harp, RATE);
+  memcpy(fresh, left, sizeof(fresh));
+  harp_reset(harp);
+  press_pedal_and_play(harp, 1000);
+  assert_in_range(harp_report(harp).n_strings, 2, 87);
+  harp_pedal(harp, 0, 0.0);
+  harp_all_sound_off(harp);
+  harp_run(harp, RATE, left, right);
+  assert_int_equal(harp_report(harp).n_strings, 0);
+  press_pedal_and_play(harp, RATE);
+  assert_memory_equal(left, fresh, sizeof(fresh));
+  harp_free(harp);
+}
+
 /* In decibels, of what the played string moves by at the same time. */
 static double answer_db(uint32_t played, uint32_t answering, double resonance, double after_s) {
   static float middle[RATE / 4];
@@ -232,6 +259,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(without_resonance_there_is_no_bridge),
       cmocka_unit_test(bridge_leaves_nothing_behind),
+      cmocka_unit_test(strings_wake_in_the_same_order_again),
       cmocka_unit_test(open_octaves_answer_and_others_less),
       cmocka_unit_test(pedal_is_heard),
       cmocka_unit_test(damped_strings_sleep_on),
