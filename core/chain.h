@@ -48,7 +48,7 @@ typedef struct {
   void* memory;            /**< The caller's */
   void* cells;             /**< Where in it the masses are now */
   uint32_t n_masses;       /**< N */
-  uint32_t n_cells;        /**< S = ⌈N / lanes⌉ */
+  uint32_t n_cells;        /**< S = ⌈N / lanes⌉, but CHAIN_LEAST_CELLS at least */
   uint32_t n_gliding; /**< Steps until `goal` is reached; 0 when the coefficients stand still */
   StringCoefs now;    /**< What the next step uses, while still */
   StringCoefs change; /**< What a step adds to it, while gliding */

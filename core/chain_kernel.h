@@ -16,8 +16,9 @@ enum {
   CHAIN_MAX_MASSES = 1024,
   CHAIN_MAX_TAPS = 4,
   CHAIN_MAX_LANES = 8,
-  CHAIN_MAX_BATCH = 4,  /**< Strings that are stepped together */
-  CHAIN_ALIGNMENT = 64, /**< Of the cells [bytes] */
+  CHAIN_LEAST_CELLS = 3, /**< That a string is laid over, so that no end is its own neighbour */
+  CHAIN_MAX_BATCH = 4,   /**< Strings that are stepped together */
+  CHAIN_ALIGNMENT = 64,  /**< Of the cells [bytes] */
 };
 
 /** What a string's masses are kept in. */

@@ -47,11 +47,14 @@ INLINE float read_tap(const Number* numbers, const ChainReader* reader) {
 }
 
 INLINE Strand strand_of(const ChainWork* work) {
+  const uint32_t wall_lane = work->n_masses / work->n_cells;
+  const uint32_t wall_cell = work->n_masses % work->n_cells;
   return (Strand){
       .cells = work->cells,
       .n_cells = work->n_cells,
-      .wall_cell = work->n_masses % work->n_cells,
-      .mask = wall_mask(work->n_masses / work->n_cells),
+      .wall_cell = wall_cell,
+      .n_free = wall_lane < CHAIN_LOOP_LANES ? wall_cell : work->n_cells,
+      .mask = wall_mask(wall_lane),
       .wide = *work->now,
       .now = narrow(*work->now),
       .gain = CHAIN_LOOP_IS_FIXED ? *work->gain : 1.0,
@@ -107,7 +110,7 @@ INLINE double sum_of(RealVector v) {
 }
 
 /* A field over the string, from [1] on, and what lies before and behind. */
-typedef RealVector Field[MAX_CELLS + 2];
+typedef RealVector Field[CHAIN_MAX_MASSES / CHAIN_LOOP_LANES + 2];
 
 INLINE void close_field(Field field, uint32_t n_cells) {
   const RealVector wall = {0};

@@ -18,9 +18,13 @@ static const double QUIET_ENOUGH = 4e-6;
 static const double TOO_SMALL = 4.0;
 static const double TOO_LARGE = 0.7;
 
+static uint32_t n_cells_of(uint32_t n_masses, uint32_t n_lanes) {
+  const uint32_t n_cells = (n_masses + n_lanes - 1) / n_lanes;
+  return n_cells > CHAIN_LEAST_CELLS ? n_cells : CHAIN_LEAST_CELLS;
+}
+
 static size_t cells_size(uint32_t n_masses, size_t number_size) {
-  const size_t n_cells = ((size_t)n_masses + CHAIN_MAX_LANES - 1) / CHAIN_MAX_LANES;
-  return n_cells * 2 * CHAIN_MAX_LANES * number_size;
+  return (size_t)n_cells_of(n_masses, CHAIN_MAX_LANES) * 2 * CHAIN_MAX_LANES * number_size;
 }
 
 size_t chain_numbers_size(uint32_t n_masses) {
@@ -34,7 +38,7 @@ static void point_to(Chain* chain, ChainNumbers numbers) {
   chain->numbers = numbers;
   chain->loops = chain->kernel->loops[numbers];
   chain->cells = (char*)chain->memory + offset;
-  chain->n_cells = (chain->n_masses + chain->loops->n_lanes - 1) / chain->loops->n_lanes;
+  chain->n_cells = n_cells_of(chain->n_masses, chain->loops->n_lanes);
 }
 
 void chain_numbers_lay(Chain* chain) {

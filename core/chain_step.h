@@ -39,17 +39,13 @@ typedef struct {
   Cell* cells;
   uint32_t n_cells;
   uint32_t wall_cell;
+  uint32_t n_free; /* Cells before the wall's */
   Mask mask;
   StringCoefs wide;
   Coefs now;
   double gain;
   uint32_t chance;
 } Strand;
-
-enum { MAX_CELLS = CHAIN_MAX_MASSES / CHAIN_LOOP_LANES };
-
-/* L x or L² x of every cell, from [1] on, and of those before and behind. */
-typedef Vector Curve[MAX_CELLS + 2];
 
 #if CHAIN_LOOP_IS_FIXED
 INLINE RealVector real(Vector v) {
@@ -111,61 +107,52 @@ INLINE Vector hold(Vector v, Mask mask) {
   return (Vector)((Mask)v & mask);
 }
 
-/* L of every `stride`-th vector of `in`.  A hinge carries no moment: at the wall, where the mask
-   is, it is nought, though its neighbour is not. */
-INLINE void curve(Curve out, const Vector* in, size_t stride, const Strand* strand) {
-  const size_t last = (size_t)strand->n_cells - 1;
-  const uint32_t wall_cell = strand->wall_cell;
-  Vector here = in[0];
-  Vector slope_before = here - before(in[last * stride]);
-  const Vector end = behind(here);
-  for (size_t j = 0; j < last; ++j) {
-    const Vector next = in[(j + 1) * stride];
-    const Vector slope = next - here;
-    out[j + 1] = slope_before - slope;
-    slope_before = slope;
-    here = next;
-  }
-  out[last + 1] = slope_before - (end - here);
-  out[wall_cell + 1] = hold(out[wall_cell + 1], strand->mask);
-  out[0] = before(out[last + 1]);
-  out[last + 2] = behind(out[1]);
+/* All but what is at the wall, if cell `j` is the one that the wall is in. */
+INLINE Vector hold_at(Vector v, size_t j, const Strand* strand) {
+  return j == strand->wall_cell ? hold(v, strand->mask) : v;
 }
 
 /* What there is to know of the links of one step. */
 typedef struct {
   const Coefs* c;
-  const Vector* bow;
-  const Vector* flex;
   const RealVector* dither;
 } Links;
 
-/* The links behind the last cell are those before the first, a lane on, and must be rounded alike,
-   or they would pull one mass and not the other. */
-INLINE RealVector dither_at(size_t j, const Links* links, bool is_end) {
-  const RealVector here = links->dither[j];
-  if (is_end) {
-    return __builtin_shufflevector(links->dither[0], here, CHAIN_LOOP_BEHIND);
-  }
-  return here;
+/* From one neighbour to the next. */
+typedef struct {
+  Vector x;
+  Vector u;
+  Vector bow;
+  Vector flex;
+} Slopes;
+
+INLINE RealVector dither_at(size_t j, const Links* links) {
+  return CHAIN_LOOP_IS_FIXED ? links->dither[j] : (RealVector){0};
 }
 
-/* Of the link between cell j − 1 and cell j, whose difference of x and u is given.  The largest
-   comes last, so that the small are not lost in its last place. */
-INLINE Vector
-link_of(Vector dx, Vector du, size_t j, bool is_end, const Links* links, Scene scene) {
+/* The links behind the last cell are those before the first, a lane on, and must be rounded alike,
+   or they would pull one mass and not the other. */
+INLINE RealVector dither_at_end(size_t n_cells, const Links* links) {
+  if (!CHAIN_LOOP_IS_FIXED) {
+    return (RealVector){0};
+  }
+  return __builtin_shufflevector(links->dither[0], links->dither[n_cells], CHAIN_LOOP_BEHIND);
+}
+
+/* The largest comes last, so that the small are not lost in its last place. */
+INLINE Vector link_of(Slopes slopes, RealVector dither, const Links* links, Scene scene) {
   const Coefs* const c = links->c;
-  RealVector link = CHAIN_LOOP_IS_FIXED ? dither_at(j, links, is_end) : (RealVector){0};
+  RealVector link = dither;
   if (scene.damping == CHAIN_BETWEEN) {
-    link += c->z1 * real(du);
+    link += c->z1 * real(slopes.u);
   }
   if (scene.elasticity >= CHAIN_STRAIGHTENED) {
-    link += c->k3 * real(links->flex[j + 1] - links->flex[j]);
+    link += c->k3 * real(slopes.flex);
   }
   if (scene.elasticity >= CHAIN_BENDING) {
-    link += c->k2 * real(links->bow[j + 1] - links->bow[j]);
+    link += c->k2 * real(slopes.bow);
   }
-  return number(link + c->k1 * real(dx));
+  return number(link + c->k1 * real(slopes.x));
 }
 
 /* Velocity first, then position with the new velocity. */
@@ -183,38 +170,17 @@ INLINE void move(Cell* cell, Vector x, Vector u, Vector pull, const Coefs* c, Sc
   cell->x = x + u;
 }
 
-/* One step: each link is computed once and carried. */
+#include "core/chain_flexible.h"
+#include "core/chain_stiff.h"
+
 INLINE void step(Strand* strand, Scene scene) {
-  Cell* const cells = strand->cells;
-  const Coefs* const c = &strand->now;
-  const size_t last = (size_t)strand->n_cells - 1;
-  Curve bow;
-  Curve flex;
-  if (scene.elasticity >= CHAIN_BENDING) {
-    curve(bow, &cells->x, 2, strand);
+  const Links links = {&strand->now, dither_of(strand)};
+  Cell* const wall = &strand->cells[strand->wall_cell];
+  if (scene.elasticity == CHAIN_FLEXIBLE) {
+    step_flexible(strand, &links, scene);
+  } else {
+    step_stiff(strand, &links, scene);
   }
-  if (scene.elasticity >= CHAIN_STRAIGHTENED) {
-    curve(flex, bow + 1, 1, strand);
-  }
-  const Links links = {c, bow, flex, dither_of(strand)};
-  Vector x = cells[0].x;
-  Vector u = cells[0].u;
-  const Vector x_end = behind(x);
-  const Vector u_end = behind(u);
-  Vector link_before =
-      link_of(x - before(cells[last].x), u - before(cells[last].u), 0, false, &links, scene);
-  for (size_t j = 0; j < last; ++j) {
-    const Vector x_next = cells[j + 1].x;
-    const Vector u_next = cells[j + 1].u;
-    const Vector link = link_of(x_next - x, u_next - u, j + 1, false, &links, scene);
-    move(&cells[j], x, u, link - link_before, c, scene);
-    link_before = link;
-    x = x_next;
-    u = u_next;
-  }
-  const Vector link = link_of(x_end - x, u_end - u, last + 1, true, &links, scene);
-  move(&cells[last], x, u, link - link_before, c, scene);
-  Cell* const wall = &cells[strand->wall_cell];
   wall->x = hold(wall->x, strand->mask);
   wall->u = hold(wall->u, strand->mask);
 }

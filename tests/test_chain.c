@@ -1,4 +1,4 @@
-#include "core/chain.h"
+#include "core/chain_numbers.h"
 
 #include "tests/chains.h"
 #include "tests/oracle.h"
@@ -244,11 +244,45 @@ static void kernels_agree(void** state) {
   }
 }
 
+/* Numbers that are no mass's, and not nought. */
+static size_t n_stirred(const Chain* chain) {
+  static bool is_mass[4 * CHAIN_MAX_MASSES];
+  size_t n = 0;
+  memset(is_mass, 0, sizeof(is_mass));
+  for (uint32_t i = 0; i < chain->n_masses; ++i) {
+    const size_t at = chain_numbers_offset(chain, i);
+    is_mass[at] = is_mass[at + chain->loops->n_lanes] = true;
+  }
+  for (size_t m = 0; m < chains_n_numbers(chain); ++m) {
+    n += !is_mass[m] && chains_number(chain, m) != 0.0;
+  }
+  return n;
+}
+
+/* What lay there would count in the energy, and could overflow. */
+static void nothing_stirs_beyond_the_wall(void** state) {
+  (void)state;
+  for (uint32_t kernel = 0; chain_kernel(kernel); ++kernel) {
+    for (int scene = 0; scene < N_CHAIN_DAMPINGS * N_CHAIN_ELASTICITIES; ++scene) {
+      for (uint32_t n = 1; n <= 70; ++n) {
+        for (int numbers = 0; numbers < N_CHAIN_NUMBERS; ++numbers) {
+          Chain chain;
+          chains_start(&chain, chain_kernel(kernel), memory, (ChainNumbers)numbers,
+                       (ChainDamping)(scene % 3), (ChainElasticity)(scene / 3), n);
+          chains_run(&chain, 3);
+          assert_int_equal(n_stirred(&chain), 0);
+        }
+      }
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_layout_is_the_same_string),
       cmocka_unit_test(every_glide_is_the_same_string),
       cmocka_unit_test(kernels_agree),
+      cmocka_unit_test(nothing_stirs_beyond_the_wall),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
