@@ -31,8 +31,12 @@ typedef struct {
   double stored; /* φ(before) */
 } Press;
 
+static double power_of(double c, double p) {
+  return p == FELT_EXPONENT ? c * c * sqrt(c) : pow(c, p);
+}
+
 static double slope_at(const Felt* felt, double c) {
-  return c > 0.0 ? felt->stiffness * pow(c, felt->exponent) : 0.0;
+  return c > 0.0 ? felt->stiffness * power_of(c, felt->exponent) : 0.0;
 }
 
 /* The force for a compression `after`, and how fast it grows with it. */

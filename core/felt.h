@@ -19,6 +19,9 @@
 #ifndef HOOKE_CORE_FELT_H
 #define HOOKE_CORE_FELT_H
 
+/** The exponent of the felts that are used, with which a power is a product and a root. */
+#define FELT_EXPONENT 2.5
+
 /** A felt; zero is none. */
 typedef struct {
   double stiffness; /**< K ≥ 0, in the string's units of force */
