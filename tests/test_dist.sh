@@ -56,6 +56,13 @@ cmp -s found wanted || fail "installed for the user: $(diff wanted found)"
 home/.local/bin/hooke render --list-presets >presets 2>&1 || fail "the user's hooke: $(cat presets)"
 grep -q 'Concert Harp' presets || fail "the user's hooke does not find its bundle: $(cat presets)"
 ! in_tree "$name" install --prefix="$dir/elsewhere" || fail 'a prefix given too late is not refused'
+
+# A configuration that is older than an option is renewed with it, by the next build.
+sed -i "s/, 'cross': None//" "$name"/.lock-waf*
+! grep -q "'cross'" "$name"/.lock-waf* || fail 'the configuration still knows the option'
+echo >>"$name/wscript"
+must "$name" build
+
 must "$name" uninstall
 same "$(find home -mindepth 1)" '' 'what is left of the user'
 
