@@ -79,7 +79,7 @@ def options(opt):
     opt.add_option('--no-tests', action='store_true', help='configure: leave out the programs that are only tests')
     opt.add_option('--long', action='store_true', help='test: run the long versions of the tests as well')
     opt.add_option('--only', default='', metavar='WORD', help='test: run those with one of WORD,WORD,… in their name')
-    opt.add_option('--timeout', type=int, metavar='S', help='test: let each program take S seconds [600; --long: 3600]')
+    opt.add_option('--timeout', type=int, metavar='S', help='test: let each program take S seconds [600; --long, --sanitize, --valgrind: 3600]')
 
 
 def configure(conf):
@@ -366,7 +366,8 @@ def run_environment(bld):
 
 def run_tests(bld):
     programs = test_programs(bld)
-    timeout = bld.options.timeout or (3600 if bld.options.long else 600)
+    slow = bld.options.long or bld.options.sanitize or bld.options.valgrind
+    timeout = bld.options.timeout or (3600 if slow else 600)
     environment = run_environment(bld)
     if bld.options.valgrind:
         programs = memcheck.wrap(programs, environment, bld.bldnode.abspath())
