@@ -34,6 +34,11 @@ static double peak_left(size_t vector_bytes) {
   return fmin(1.0, bench_clock_peak(vector_bytes) / (MOST_OPERATIONS * bench_clock_hz()));
 }
 
+double speed_slowdown(void) {
+  const char* const slowdown = getenv("HOOKE_SLOWDOWN");
+  return slowdown ? strtod(slowdown, NULL) : 1.0;
+}
+
 static void run_blocks(LilvInstance* instance, uint32_t block, int n_blocks) {
   for (int k = 0; k < n_blocks; ++k) {
     lilv_instance_run(instance, block);

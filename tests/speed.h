@@ -7,6 +7,10 @@
 /** Skip the test where it is built with a sanitizer, whose checks are not what the plugin costs. */
 void speed_skip_where_sanitized(void);
 
+/** How much longer than by itself anything may take here: 1, or what HOOKE_SLOWDOWN says, which is
+    set where something watches every instruction. */
+double speed_slowdown(void);
+
 /**
    The plugin's run() alone, without the host around it, as a share of a core: the median of many
    short runs.
