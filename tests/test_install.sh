@@ -8,6 +8,7 @@ set -u
 bundle=${HOOKE_BUNDLE:?}
 stage=$dir/stage
 test -e "$HOOKE_SOURCE/build/c4che/_cache.py" || skip 'the tree is not built in build/'
+test "$HOOKE_BIN" = "$HOOKE_SOURCE/build/hooke" || skip 'what is tested is not what is installed'
 
 setting() {
     sed -n "s/^$1 = '\(.*\)'$/\1/p" "$HOOKE_SOURCE/build/c4che/_cache.py"
