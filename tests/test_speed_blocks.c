@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-enum { MASSES = 256, N_TIMES = 20, PLAY_S = 60 };
+enum { MASSES = 256, N_TIMES = 60, PLAY_S = 60 };
 
 /* Of the mean block when nothing happens. */
 static const double MOST = 3.0;
