@@ -30,7 +30,7 @@ typedef struct {
   Vector flex;
 } End;
 
-/* Bow and flex of the last cell; all that is here is of before the step. */
+/* Before the first cell moves, while both ends are as they were before the step. */
 INLINE void begin(Window* w, End* end, const Strand* strand, const Links* links, Scene scene) {
   const Cell* const cells = strand->cells;
   const Cell* const far = cells + strand->n_cells - CHAIN_LEAST_CELLS;

@@ -63,3 +63,16 @@ Tone harps_tone(const Patch* patch, uint32_t key, double bend_semitones) {
       .tau_s = 1.0 / (patch->damping_per_s * exp2(patch->tracking * octaves)),
   };
 }
+
+Patch harps_touched_patch(uint32_t way) {
+  Patch patch = harps_patch(way);
+  patch.vibrato_hz = 5.0;
+  patch.spread = 0.0;
+  return patch;
+}
+
+Tone harps_string_tone(const HarpString* string) {
+  assert_true(string->wire.is_awake && string->wire.chain.n_gliding == 0);
+  return pole_tone(string->wire.rate_hz,
+                   tuning_mode(string->wire.chain.now, string->wire.chain.n_masses, 1));
+}

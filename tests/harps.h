@@ -16,6 +16,9 @@ const char* harps_sense(Sense sense);
 /** All ports at their defaults, but for what plays and what is heard: the `way`-th of all nine. */
 Patch harps_patch(uint32_t way);
 
+/** The same for what hands do: heard in one place, with a vibrato of 5 Hz. */
+Patch harps_touched_patch(uint32_t way);
+
 /** A harp at rest with a patch; the test fails if there is none. */
 Harp* harps_new(double rate_hz, const Patch* patch);
 
@@ -30,5 +33,9 @@ double harps_largest_step(const float* samples, size_t n);
 
 /** Pitch [Hz] and decay [s] of an open string, as the headers say. */
 Tone harps_tone(const Patch* patch, uint32_t key, double bend_semitones);
+
+/** Those of a string as it is; the test fails unless it is awake and its coefficients stand still.
+ */
+Tone harps_string_tone(const HarpString* string);
 
 #endif

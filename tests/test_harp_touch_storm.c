@@ -18,20 +18,13 @@ enum { RATE = 48000, MOST = 2 * RATE };
 static float left[MOST];
 static float other[MOST];
 
-static Patch patch_of(uint32_t way) {
-  Patch patch = harps_patch(way);
-  patch.vibrato_hz = 5.0;
-  patch.spread = 0.0;
-  return patch;
-}
-
 /* Any hand, and anything that it can do. */
 static void gesture(Harp* harp, Random* random) {
   const uint32_t hand = random_below(random, HARP_HANDS);
   const uint32_t key = 40 + random_below(random, 8);
   const double share =
       random_below(random, 4) ? random_between(random, 0.0, 1.0) : (double)random_below(random, 2);
-  Patch patch = patch_of(random_below(random, HARPS_N_WAYS));
+  Patch patch = harps_touched_patch(random_below(random, HARPS_N_WAYS));
   switch (random_below(random, 16)) {
   case 0:
     harp_bend(harp, hand, 192.0 * (share - 0.5));
@@ -93,7 +86,7 @@ static void gesture(Harp* harp, Random* random) {
 static void play_storm(Harp* harp, uint64_t seed, uint32_t cut, uint32_t n_frames, float* out) {
   Random random = {.state = seed};
   Random cuts = {.state = cut};
-  const Patch patch = patch_of(0);
+  const Patch patch = harps_touched_patch(0);
   harps_restart(harp, &patch);
   for (uint32_t done = 0; done < n_frames;) {
     gesture(harp, &random);
@@ -115,7 +108,7 @@ static void touches_are_the_same_however_calls_are_cut(void** state) {
   enum { ROUNDS = 60 };
   (void)state;
   Random random = random_start();
-  const Patch patch = patch_of(0);
+  const Patch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   for (int round = 0; round < ROUNDS; ++round) {
     const uint64_t seed = random_below(&random, 1U << 31);
@@ -135,7 +128,7 @@ static void nothing_sticks_after_a_storm_of_hands(void** state) {
   Random random = random_start();
   double peak = 0.0;
   for (size_t r = 0; r < 3; ++r) {
-    const Patch patch = patch_of(0);
+    const Patch patch = harps_touched_patch(0);
     Harp* const harp = harps_new(rates_hz[r], &patch);
     for (int round = 0; round < 4; ++round) {
       play_storm(harp, random_below(&random, 1U << 31), MOST, 2 * RATE, left);

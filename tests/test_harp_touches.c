@@ -17,23 +17,10 @@ enum { RATE = 48000, KEY = 57, MOST = 4 * RATE, BOWED = 2 * HARPS_N_SENSES };
 static float left[MOST];
 static float other[MOST];
 
-static Patch patch_of(uint32_t way) {
-  Patch patch = harps_patch(way);
-  patch.vibrato_hz = 5.0;
-  patch.spread = 0.0;
-  return patch;
-}
-
-static Tone tone_of(const HarpString* string) {
-  assert_true(string->wire.is_awake && string->wire.chain.n_gliding == 0);
-  return pole_tone(string->wire.rate_hz,
-                   tuning_mode(string->wire.chain.now, string->wire.chain.n_masses, 1));
-}
-
 static void a_hand_bends_what_it_plays(void** state) {
   static const double bends[] = {0.01, 2.0, -12.0, 24.0, -48.0, 48.0, 0.0};
   (void)state;
-  const Patch patch = patch_of(0);
+  const Patch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   const HarpString* const bent = &harp->strings[KEY];
   const HarpString* const still = &harp->strings[KEY + 1];
@@ -43,10 +30,10 @@ static void a_hand_bends_what_it_plays(void** state) {
     harp_note_on(harp, 2, KEY + 1, 100);
     harp_bend(harp, 1, bends[b]);
     harps_run(harp, 1000, NULL, NULL);
-    worst = fmax(worst,
-                 fabs(measure_cents(tone_of(bent).f0_hz, harps_tone(&patch, KEY, bends[b]).f0_hz)));
-    worst = fmax(worst,
-                 fabs(measure_cents(tone_of(still).f0_hz, harps_tone(&patch, KEY + 1, 0.0).f0_hz)));
+    worst = fmax(worst, fabs(measure_cents(harps_string_tone(bent).f0_hz,
+                                           harps_tone(&patch, KEY, bends[b]).f0_hz)));
+    worst = fmax(worst, fabs(measure_cents(harps_string_tone(still).f0_hz,
+                                           harps_tone(&patch, KEY + 1, 0.0).f0_hz)));
   }
   assert_within("cents", worst, 1e-4);
   harp_free(harp);
@@ -57,7 +44,7 @@ static void a_hand_bends_what_it_plays(void** state) {
 static void far_bends_are_exact_and_do_not_click(void** state) {
   static const double bends[] = {-36.0, 48.0, -48.0, 12.0, 0.0};
   (void)state;
-  const Patch patch = patch_of(0);
+  const Patch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 0, KEY, 127);
   harps_run(harp, RATE / 4, left, NULL);
@@ -91,7 +78,7 @@ static double bowed_db(Harp* harp) {
 
 static void breath_and_pressure_are_the_bows_strength(void** state) {
   (void)state;
-  const Patch patch = patch_of(BOWED);
+  const Patch patch = harps_touched_patch(BOWED);
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 0, KEY, 80);
   const double full = bowed_db(harp);
@@ -126,7 +113,7 @@ static double loss_of(const HarpString* string) {
 
 static void brightness_moves_what_is_between_the_masses(void** state) {
   (void)state;
-  const Patch patch = patch_of(0);
+  const Patch patch = harps_touched_patch(0);
   const double tau_s = harps_tone(&patch, KEY, 0.0).tau_s;
   Harp* const harp = harps_new(RATE, &patch);
   double last = 1.0;
@@ -135,7 +122,7 @@ static void brightness_moves_what_is_between_the_masses(void** state) {
     harp_brighten(harp, 0, 0.25 * step);
     harps_run(harp, 1000, NULL, NULL);
     const double loss = loss_of(&harp->strings[KEY]);
-    assert_within("τ", fabs(tone_of(&harp->strings[KEY]).tau_s / tau_s - 1.0), 1e-9);
+    assert_within("τ", fabs(harps_string_tone(&harp->strings[KEY]).tau_s / tau_s - 1.0), 1e-9);
     assert_true(loss < 0.8 * last);
     if (step == 0) {
       assert_within("as the patch has it", fabs(loss / patch.loss - 1.0), 1e-9);
@@ -159,7 +146,7 @@ static double sharpness(const float* samples, size_t n) {
 static void a_brighter_hand_plays_brighter_notes(void** state) {
   (void)state;
   for (uint32_t exciter = 0; exciter < 2; ++exciter) {
-    const Patch patch = patch_of(HARPS_N_SENSES * exciter + SENSE_VELOCITY);
+    const Patch patch = harps_touched_patch(HARPS_N_SENSES * exciter + SENSE_VELOCITY);
     Harp* const harp = harps_new(RATE, &patch);
     double last = 0.0;
     for (int step = -1; step <= 1; ++step) {
@@ -179,7 +166,7 @@ static void a_brighter_hand_plays_brighter_notes(void** state) {
 /* Where it would click most. */
 static void a_swell_is_a_gain_and_no_step(void** state) {
   (void)state;
-  const Patch patch = patch_of(0);
+  const Patch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   uint32_t at = RATE / 2;
   harp_note_on(harp, 0, KEY, 100);

@@ -18,19 +18,6 @@ static const double PI = 3.14159265358979323846;
 static float left[MOST];
 static float other[MOST];
 
-static Patch patch_of(uint32_t way) {
-  Patch patch = harps_patch(way);
-  patch.vibrato_hz = 5.0;
-  patch.spread = 0.0;
-  return patch;
-}
-
-static Tone tone_of(const HarpString* string) {
-  assert_true(string->wire.is_awake && string->wire.chain.n_gliding == 0);
-  return pole_tone(string->wire.rate_hz,
-                   tuning_mode(string->wire.chain.now, string->wire.chain.n_masses, 1));
-}
-
 /* The phase [cycles] of what is heard around `at`, against a steady tone of `f_hz`. */
 static double phase_at(const float* samples, size_t at, size_t n_window, double f_hz) {
   double re = 0.0;
@@ -61,7 +48,7 @@ static double mean_above_hz(const float* samples, size_t n, double f_hz) {
 /* Over nine whole swings. */
 static void a_vibrato_is_exact_in_its_mean(void** state) {
   (void)state;
-  Patch patch = patch_of(0);
+  Patch patch = harps_touched_patch(0);
   patch.damping_per_s = 0.05;
   Harp* const harp = harps_new(RATE, &patch);
   const double f0_hz = harps_tone(&patch, KEY, 0.0).f0_hz;
@@ -86,7 +73,7 @@ static void a_vibrato_is_exact_in_its_mean(void** state) {
   harp_vibrato(harp, 0, 0.0);
   harps_run(harp, 2000, NULL, NULL);
   assert_within("cents once it is over",
-                fabs(measure_cents(tone_of(&harp->strings[KEY]).f0_hz, f0_hz)), 1e-4);
+                fabs(measure_cents(harps_string_tone(&harp->strings[KEY]).f0_hz, f0_hz)), 1e-4);
   harp_free(harp);
 }
 
@@ -105,7 +92,7 @@ static double swing_of(Harp* harp, uint32_t key) {
 
 static void pressure_swings_the_keys_that_it_is_on(void** state) {
   (void)state;
-  const Patch patch = patch_of(0);
+  const Patch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 1, KEY, 100);
   harp_note_on(harp, 1, KEY + 1, 100);
@@ -136,7 +123,7 @@ static void pressure_swings_the_keys_that_it_is_on(void** state) {
 /* A note that is played under a vibrato has it, and so has one that follows another. */
 static void a_vibrato_waits_for_notes(void** state) {
   (void)state;
-  const Patch patch = patch_of(0);
+  const Patch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   harp_vibrato(harp, 0, 0.3);
   for (int again = 0; again < 3; ++again) {
@@ -149,7 +136,7 @@ static void a_vibrato_waits_for_notes(void** state) {
 /* Nor does it begin in the middle of the last one's. */
 static void a_vibrato_begins_with_its_note(void** state) {
   (void)state;
-  Patch patch = patch_of(0);
+  Patch patch = harps_touched_patch(0);
   patch.damping_per_s = 50.0;
   Harp* const harp = harps_new(RATE, &patch);
   harp_vibrato(harp, 0, 0.3);
@@ -168,7 +155,7 @@ static void a_vibrato_begins_with_its_note(void** state) {
 /* A host that automates something with large blocks. */
 static void slow_changes_do_not_stretch_a_vibrato(void** state) {
   (void)state;
-  Patch patch = patch_of(0);
+  Patch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   harp_vibrato(harp, 0, 0.3);
   harp_note_on(harp, 0, KEY, 100);
