@@ -6,7 +6,7 @@ Sources are found by where they lie, so that a new one needs no line here:
     core/*_avx2.c      the part of it for processors with AVX2 and FMA, which is chosen when it runs
     plugin/*.c         the plugin, hooke.lv2/hooke.so, and a static library for the tests of its parts
     ttl/, presets/     the plugin's descriptions and presets, beside it
-    tools/main.c       the program `hooke`; the other tools/*.c are a library which the tests share
+    tools/commands/main.c       the program `hooke`; the other tools/*.c are a library which the tests share
     tools/make_*.c     a program each, which makes a part of the plugin while that is built
     tests/test_*.c     a test program each; the other tests/*.c are linked into all of them
     tests/plant_*.c    a library each, built as the plugin is, with a fault that a test has to find
@@ -36,8 +36,8 @@ default_prefix = '/usr/local'
 # Configure when needed, and again with the same options when this file has changed.
 Configure.autoconfig = 'clobber'
 
-# The rooms of core/ which know LAPACK. They serve the tools and the tests and stay out of the plugin.
-LAPACK_ROOMS = ['modes', 'modes_band', 'modes_few', 'modes_frame', 'modes_general', 'modes_match', 'modes_symmetric', 'retune']
+# The room of core/ that knows LAPACK. It serves the tools and the tests and stays out of the plugin.
+ANALYSIS = 'core/analysis/*.c'
 
 WARNINGS = '''
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wcast-qual -Wvla
@@ -158,7 +158,7 @@ def set_flags(conf):
     conf.env.prepend_value('CFLAGS', flags)
     conf.env.append_value('INCLUDES', [conf.path.abspath()])
     if conf.env.DEST_CPU == 'aarch64':
-        conf.env.CFLAGS_HELPERS = ['-fno-tree-loop-vectorize']  # gcc 12 fails to compile tests/harps.c with it
+        conf.env.CFLAGS_HELPERS = ['-fno-tree-loop-vectorize']  # gcc 12 fails to compile tests/support/harps.c with it
     if conf.env.DEST_OS == 'win32':
         conf.env.PLUGIN_LINKFLAGS = ['-static']
         cross.suit_windows(conf)
@@ -202,17 +202,16 @@ def refuse_late_options(bld):
 
 
 def build_core(bld):
-    in_lapack_rooms = ['core/%s.c' % room for room in LAPACK_ROOMS]
-    for_avx2 = 'core/*_avx2.c'
+    for_avx2 = 'core/*/*_avx2.c'
+    sources = bld.path.ant_glob('core/*/*.c', excl=[ANALYSIS, for_avx2])
     if bld.env.DEST_CPU == 'x86_64':
         bld.objects(source=bld.path.ant_glob(for_avx2), target='hooke_avx2', cflags=['-fPIC'] + AVX2,
                     defines=['HOOKE_AVX2'])
-        library(bld, 'hooke_core', bld.path.ant_glob('core/*.c', excl=in_lapack_rooms + [for_avx2]),
-                use='M hooke_avx2', defines=['HOOKE_AVX2'])
+        library(bld, 'hooke_core', sources, use='M hooke_avx2', defines=['HOOKE_AVX2'])
     else:
-        library(bld, 'hooke_core', bld.path.ant_glob('core/*.c', excl=in_lapack_rooms + [for_avx2]), use='M')
+        library(bld, 'hooke_core', sources, use='M')
     if bld.env.WITH_TOOLS:
-        library(bld, 'hooke_analysis', bld.path.ant_glob(in_lapack_rooms), use='hooke_core LAPACK')
+        library(bld, 'hooke_analysis', bld.path.ant_glob(ANALYSIS), use='hooke_core LAPACK')
 
 
 def build_bundle(bld):
@@ -235,7 +234,7 @@ def build_bundle(bld):
 # The presets as C, made from the bundle as it is built.
 def make_programs(bld):
     maker = bld.bldnode.find_or_declare('make_programs')
-    bld.program(source='tools/make_programs.c', target=maker, use='LILV LV2', install_path=None,
+    bld.program(source='tools/make/make_programs.c', target=maker, use='LILV LV2', install_path=None,
                 env=bld.all_envs.get('native', bld.env).derive())
     turtle = [bld.bldnode.find_or_declare('hooke.lv2/' + node.name.replace('.in', ''))
               for node in bld.path.ant_glob(['ttl/*.ttl', 'ttl/*.ttl.in', 'presets/*.ttl'])]
@@ -252,26 +251,26 @@ def library_ending(bld):
 def build_tools(bld):
     defines = ['HOOKE_VERSION="%s"' % VERSION, 'HOOKE_LV2DIR="%s"' % bld.env.LV2DIR]
     use = 'hooke_analysis hooke_core LILV SNDFILE SMF LV2 M DL PTHREAD'
-    library(bld, 'hooke_tools', bld.path.ant_glob('tools/*.c', excl=['tools/main.c', 'tools/make_*.c']), use=use, defines=defines)
-    for node in bld.path.ant_glob('tools/main.c'):
+    library(bld, 'hooke_tools', bld.path.ant_glob('tools/*/*.c', excl=['tools/commands/main.c', 'tools/make/*.c']), use=use, defines=defines)
+    for node in bld.path.ant_glob('tools/commands/main.c'):
         bld.program(source=[node], target='hooke', name='hooke_program', use='hooke_tools ' + use, defines=defines)
     bld.install_files('${MANDIR}/man1', 'doc/hooke.1')
 
 
 def build_tests(bld):
     use = 'hooke_parts hooke_tools hooke_analysis hooke_core CMOCKA LILV SNDFILE SMF LAPACK LV2 M DL PTHREAD'
-    helpers = bld.path.ant_glob('tests/*.c', excl=['tests/test_*.c', 'tests/plant_*.c'])
+    helpers = bld.path.ant_glob('tests/support/*.c', excl=['tests/*/test_*.c', 'tests/*/plant_*.c'])
     library(bld, 'hooke_helpers', helpers, use=use + ' HELPERS')
     env = bld.env.derive()
     env.cshlib_PATTERN = '%s.so'
-    for node in bld.path.ant_glob('tests/plant_*.c'):
+    for node in bld.path.ant_glob('tests/support/plant_*.c'):
         bld.shlib(source=[node], target='tests/' + node.name[:-len('.c')], env=env, install_path=None,
                   linkflags=bld.env.PLUGIN_LINKFLAGS)
-    for node in bld.path.ant_glob('tests/hosts/*.c', excl='tests/hosts/watch_*.c'):
+    for node in bld.path.ant_glob('tests/hosts/*.c', excl=['tests/hosts/watch_*.c', 'tests/hosts/test_*.c']):
         bld.program(source=[node], target='tests/hosts/' + node.name[:-len('.c')], use='hooke_helpers ' + use, install_path=None)
     bld.shlib(source=bld.path.ant_glob('tests/hosts/watch_*.c'), target='tests/hosts/watch', env=env, use='LILV LV2 DL',
               install_path=None)
-    for node in bld.path.ant_glob('tests/test_*.c'):
+    for node in bld.path.ant_glob('tests/*/test_*.c'):
         bld.program(source=[node], target='tests/' + node.name[:-len('.c')], use='hooke_helpers ' + use,
                     install_path=None)
     fuzzing.build_replays(bld, use)
@@ -329,7 +328,7 @@ def test(bld):
     """builds, then runs all tests, or with --only some of them"""
     build(bld)
     if any(name.startswith('fuzz_') for name, _ in test_programs(bld)):
-        fuzzing.build(bld, ['core/%s.c' % room for room in LAPACK_ROOMS], AVX2)
+        fuzzing.build(bld, ANALYSIS, AVX2)
     bld.add_post_fun(run_tests)
 
 
@@ -380,12 +379,12 @@ def run_tests(bld):
 
 
 def test_programs(bld):
-    compiled = [node.name[:-len('.c')] for node in bld.path.ant_glob('tests/test_*.c')]
+    compiled = [node.name[:-len('.c')] for node in bld.path.ant_glob('tests/*/test_*.c')]
     compiled = compiled if bld.env.WITH_TESTS else []
     run = bld.env.CROSS_RUN
     programs = [(name, run + [bld.bldnode.make_node('tests/' + name).abspath()]) for name in compiled]
     if not bld.env.CHOICES['cross']:
-        programs += [(node.name, [node.abspath()]) for node in bld.path.ant_glob('tests/test_*.sh')]
+        programs += [(node.name, [node.abspath()]) for node in bld.path.ant_glob('tests/*/test_*.sh')]
         programs += fuzzing.programs(bld)
     return [program for program in programs if any(word in program[0] for word in bld.options.only.split(','))]
 

@@ -1,8 +1,8 @@
 /* Hooke Guitar, the LV2 plugin: a guitar and who plays it behind ports, MIDI and the events of a
  * script, and no physics. */
-#include "core/guitar.h"
-#include "core/guitar_event.h"
-#include "core/guitarist.h"
+#include "core/guitar/guitar.h"
+#include "core/guitar/guitar_event.h"
+#include "core/guitar/guitarist.h"
 #include "plugin/bundle.h"
 #include "plugin/guitar_midi.h"
 #include "plugin/guitar_ports.h"

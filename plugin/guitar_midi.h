@@ -6,7 +6,7 @@
 #ifndef HOOKE_PLUGIN_GUITAR_MIDI_H
 #define HOOKE_PLUGIN_GUITAR_MIDI_H
 
-#include "core/guitarist.h"
+#include "core/guitar/guitarist.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -3,8 +3,8 @@
 #ifndef HOOKE_PLUGIN_GUITAR_PORTS_H
 #define HOOKE_PLUGIN_GUITAR_PORTS_H
 
-#include "core/guitar_patch.h"
-#include "core/guitarist.h"
+#include "core/guitar/guitar_patch.h"
+#include "core/guitar/guitarist.h"
 #include "plugin/ports.h"
 
 /**

@@ -1,6 +1,6 @@
 #include "plugin/instrument.h"
 
-#include "core/limiter.h"
+#include "core/base/limiter.h"
 #include "plugin/denormals.h"
 #include "plugin/events.h"
 #include "plugin/outputs.h"

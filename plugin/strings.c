@@ -1,5 +1,5 @@
 /* Hooke Strings, the LV2 plugin: a harp behind ports and MIDI, and no physics. */
-#include "core/harp.h"
+#include "core/harp/harp.h"
 #include "plugin/bundle.h"
 #include "plugin/instrument.h"
 #include "plugin/strings_midi.h"

@@ -8,7 +8,7 @@
 #ifndef HOOKE_PLUGIN_STRINGS_HANDS_H
 #define HOOKE_PLUGIN_STRINGS_HANDS_H
 
-#include "core/harp.h"
+#include "core/harp/harp.h"
 #include "plugin/hand.h"
 #include "plugin/zones.h"
 
@@ -39,8 +39,8 @@ bool strings_hands_is_member(const StringsHands* all, uint32_t hand);
 /** Whether what is said to `leader` is said to `hand` too. */
 bool strings_hands_follows(const StringsHands* all, uint32_t hand, uint32_t leader);
 
-/* What a hand does; see core/harp.h for the numbers.  A member whose keys are all up lets go of
-   what it has played as soon as it plays again, or its wheel, pressure or brightness moves: that
+/* What a hand does; see core/harp/harp.h for the numbers.  A member whose keys are all up lets go
+   of what it has played as soon as it plays again, or its wheel, pressure or brightness moves: that
    may be for the next note. */
 
 void strings_hands_note_on(StringsHands* all, uint32_t hand, uint32_t key, uint32_t velocity);

@@ -3,7 +3,7 @@
 #ifndef HOOKE_PLUGIN_STRINGS_PORTS_H
 #define HOOKE_PLUGIN_STRINGS_PORTS_H
 
-#include "core/patch.h"
+#include "core/harp/patch.h"
 #include "plugin/ports.h"
 
 /**

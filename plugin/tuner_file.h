@@ -6,7 +6,7 @@
 #ifndef HOOKE_PLUGIN_TUNER_FILE_H
 #define HOOKE_PLUGIN_TUNER_FILE_H
 
-#include "core/scale.h"
+#include "core/scale/scale.h"
 
 #include <stdbool.h>
 

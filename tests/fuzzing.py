@@ -7,8 +7,7 @@ fuzz_NAME looks for more with libFuzzer, which only clang has, in code that ASan
 import os
 
 # What a harness needs of tools/; the rest of it needs libraries that are none of ours to fuzz.
-TOOLS = ['tools/%s.c' % name for name in ['bytes', 'midifile', 'midiclean', 'midiwalk', 'scene*', 'score*']]
-NOT_TOOLS = ['tools/*_render.c']
+TOOLS = ['tools/formats/%s.c' % name for name in ['bytes', 'midifile', 'midiclean', 'midiwalk', 'scene*', 'score*']]
 
 FLAGS = ['-std=c11', '-O1', '-g', '-w', '-fno-omit-frame-pointer', '-fno-sanitize-recover=all', '-fno-math-errno',
          '-fno-trapping-math', '-ffp-contract=off']
@@ -61,14 +60,14 @@ def build_replays(bld, use):
                     defines=['FUZZ_NAME="%s"' % name[len('fuzz_'):]])
 
 
-def build(bld, lapack_rooms, avx2):
+def build(bld, analysis, avx2):
     """builds fuzz_NAME of every harness, and all that it needs once more, watched"""
     if bld.env.NO_FUZZING:
         return
-    for_avx2 = bld.path.ant_glob('core/*_avx2.c') if bld.env.DEST_CPU == 'x86_64' else []
-    core = bld.path.ant_glob('core/*.c', excl=lapack_rooms + ['core/*_avx2.c'])
+    for_avx2 = bld.path.ant_glob('core/*/*_avx2.c') if bld.env.DEST_CPU == 'x86_64' else []
+    core = bld.path.ant_glob('core/*/*.c', excl=[analysis, 'core/*/*_avx2.c'])
     defines = ['HOOKE_AVX2'] if for_avx2 else []
-    rest = bld.path.ant_glob(TOOLS + ['plugin/*.c'], excl=NOT_TOOLS) + programs_table(bld) + helpers(bld)
+    rest = bld.path.ant_glob(TOOLS + ['plugin/*.c']) + programs_table(bld) + helpers(bld)
 
     def library(name, sources, **more):
         bld.stlib(source=sources, target='fuzz/' + name, install_path=None, env=environment(bld), **more)

@@ -1,6 +1,6 @@
 /* Whatever bytes Hooke Guitar gets as messages, as a script and as port values, in whatever blocks:
  * what goes out is finite and bounded, and nothing sticks. */
-#include "core/guitar_event.h"
+#include "core/guitar/guitar_event.h"
 #include "tests/fuzz/blocks.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Any bytes are a song whose messages can be played, or are refused with a word on why. */
 #include "tests/fuzz/fuzz.h"
-#include "tools/midiclean.h"
-#include "tools/midifile.h"
+#include "tools/formats/midiclean.h"
+#include "tools/formats/midifile.h"
 
 #include <stdlib.h>
 #include <string.h>

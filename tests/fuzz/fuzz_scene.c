@@ -1,6 +1,6 @@
 /* Any bytes are a scene that can be played, or are refused with a word on which line and why. */
 #include "tests/fuzz/fuzz.h"
-#include "tools/scene_player.h"
+#include "tools/formats/scene_player.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* Any bytes are a score that a guitar can play, or are refused with a word on which line and why.
  */
-#include "core/guitar_event.h"
+#include "core/guitar/guitar_event.h"
 #include "tests/fuzz/fuzz.h"
-#include "tools/score.h"
+#include "tools/formats/score.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef HOOKE_TESTS_FUZZ_SCALA_CLAIMS_H
 #define HOOKE_TESTS_FUZZ_SCALA_CLAIMS_H
 
-#include "core/scale.h"
+#include "core/scale/scale.h"
 
 #include <stddef.h>
 #include <stdint.h>

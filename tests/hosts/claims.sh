@@ -1,6 +1,6 @@
 # shellcheck shell=sh disable=SC2034,SC2154
 #
-# What the tests that run hosts share: to be read by them with `.`, not run. Reads tests/claims.sh.
+# What the tests that run hosts share: to be read by them with `.`, not run. Reads tests/support/claims.sh.
 
 : "${HOOKE_BIN:?is the program to test}"
 : "${HOOKE_SOURCE:?is the directory of the sources}"
@@ -24,7 +24,7 @@ if nm -D "$HOOKE_BUNDLE/hooke.so" 2>/dev/null | grep -q __asan_; then
     skip 'the plugin was built with sanitizers, which hosts were not'
 fi
 
-. "$HOOKE_SOURCE/tests/claims.sh"
+. "$HOOKE_SOURCE/tests/support/claims.sh"
 
 # Nothing of the user's is read or written, and no screen is needed.
 export XDG_CONFIG_HOME="$HOME/config" XDG_CACHE_HOME="$HOME/cache" XDG_DATA_HOME="$HOME/data"

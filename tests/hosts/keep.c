@@ -1,7 +1,7 @@
 /* Keep a plugin's state in a directory, as jalv does and as it reads it.
 
      keep URI PRESET DIRECTORY [SYMBOL=VALUE]... [scale=FILE.scl] */
-#include "tests/scale_host.h"
+#include "tests/support/scale_host.h"
 
 #include <stdio.h>
 #include <stdlib.h>

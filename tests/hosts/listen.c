@@ -7,7 +7,7 @@
    later by so much, in dB below A's peak; -inf if there is none
 
    Times are in seconds.  The left side is measured, but both are compared. */
-#include "tests/measure.h"
+#include "tests/support/measure.h"
 
 #include <math.h>
 #include <sndfile.h>

@@ -7,8 +7,8 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "tests/hosts/jack.h"
-#include "tools/midifile.h"
-#include "tools/soundfile.h"
+#include "tools/formats/midifile.h"
+#include "tools/formats/soundfile.h"
 
 #include <dlfcn.h>
 #include <math.h>

@@ -1,0 +1,300 @@
+#include "core/analysis/modes.h"
+
+#include "core/analysis/modes_band.h"
+#include "core/analysis/modes_few.h"
+#include "core/analysis/modes_frame.h"
+#include "core/analysis/modes_general.h"
+#include "core/analysis/modes_match.h"
+#include "core/analysis/modes_symmetric.h"
+#include "core/base/complex_of.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Poles looked for beyond those that are wanted. */
+enum { MORE_FEW = 2 };
+
+/* Room for the rounding of the paper's radius. */
+static const double PAPER_MARGIN = 1e-12;
+
+/* The two roots of w² + c w + k = 0, without cancellation: a conjugate pair, the upper first, or
+ * the slower first. */
+static void roots(double c, double k, double complex* w) {
+  const double d = c * c - 4.0 * k;
+  if (d < 0.0) {
+    w[0] = complex_of(-0.5 * c, 0.5 * sqrt(-d));
+    w[1] = conj(w[0]);
+  } else {
+    const double faster = -0.5 * (c + sqrt(d));
+    w[0] = faster != 0.0 ? k / faster : 0.0;
+    w[1] = faster;
+  }
+}
+
+static void put_larger_first(double complex* z) {
+  if (cimag(z[0]) == 0.0 && cabs(z[1]) > cabs(z[0])) {
+    const double complex smaller = z[0];
+    z[0] = z[1];
+    z[1] = smaller;
+  }
+}
+
+static double warp_cents(const Mode* mode) {
+  const bool vibrates = cimag(mode->analog[0]) > 0.0 && cimag(mode->pole[0]) > 0.0;
+  return vibrates ? 1200.0 * log2(2.0 * PI * mode->tone.f0_hz / cimag(mode->analog[0]))
+                  : (double)NAN;
+}
+
+/* The mass which has the two analog eigenvalues; those of a passive network do not grow. */
+static Pole paper_pole(const Mode* mode, double step_s) {
+  const double sum = creal(mode->analog[0] + mode->analog[1]);
+  const double product = creal(mode->analog[0] * mode->analog[1]);
+  return (Pole){.a = product * step_s * step_s, .g = fmax(0.0, -sum * step_s)};
+}
+
+/* All of a mode from its pairs of s and of w = (z − 1)/h. */
+static void fill_mode(Mode* mode, double step_s, const double complex* s, const double complex* w) {
+  memcpy(mode->analog, s, sizeof(mode->analog));
+  double complex fastest = w[0];
+  mode->pole[0] = 1.0 + step_s * w[0];
+  mode->pole[1] = 1.0 + step_s * w[1];
+  if (cimag(w[0]) == 0.0 && cabs(mode->pole[1]) > cabs(mode->pole[0])) {
+    fastest = w[1];
+  }
+  put_larger_first(mode->pole);
+  /* ln |1 + h w|, without the cancellation at slow decays. */
+  const double re = step_s * creal(fastest);
+  const double im = step_s * cimag(fastest);
+  const double log_radius =
+      re > -0.5 ? 0.5 * log1p(2.0 * re + re * re + im * im) : log(cabs(mode->pole[0]));
+  mode->tone = (Tone){
+      .f0_hz = carg(mode->pole[0]) / (2.0 * PI * step_s),
+      .tau_s = log_radius == 0.0 ? HUGE_VAL : -step_s / log_radius,
+  };
+  mode->warp_cents = warp_cents(mode);
+  mode->radius = cabs(mode->pole[0]);
+  mode->paper_radius = pole_radius(paper_pole(mode, step_s));
+}
+
+/* A mode of proportional damping is one mass. */
+static void fill_mode_of_mass(Mode* mode, double rate_hz, double omega, double damping) {
+  const double step_s = 1.0 / rate_hz;
+  const Pole pole = pole_from_analog(rate_hz, omega, damping);
+  double complex s[2];
+  double complex w[2];
+  roots(damping, omega * omega, s);
+  roots(damping + step_s * omega * omega, omega * omega, w);
+  fill_mode(mode, step_s, s, w);
+  mode->tone = pole_tone(rate_hz, pole);
+  mode->radius = mode->paper_radius = pole_radius(pole);
+  mode->warp_cents = warp_cents(mode);
+}
+
+static Status solve_proportional(const Frame* frame, Modes* modes) {
+  double* const omega = malloc(2 * (size_t)modes->n_modes * sizeof(double));
+  double* const damping = omega + modes->n_modes;
+  Status status =
+      omega ? symmetric_solve(frame, modes->n_modes, omega, damping, NULL) : STATUS_NO_MEMORY;
+  for (uint32_t k = 0; k < modes->n_modes && !status; ++k) {
+    fill_mode_of_mass(&modes->mode[k], modes->rate_hz, omega[k], damping[k]);
+  }
+  free(omega);
+  return status;
+}
+
+static int compare_pairs(const void* left, const void* right) {
+  const double complex* const p = left;
+  const double complex* const q = right;
+  const double size_p = sqrt(cabs(p[0])) * sqrt(cabs(p[1]));
+  const double size_q = sqrt(cabs(q[0])) * sqrt(cabs(q[1]));
+  return size_p < size_q ? -1 : size_p > size_q;
+}
+
+/* The poles that one-mass maps of the pairs s give, as w. */
+static void predict(size_t n, double step_s, const double complex* s, double complex* w) {
+  for (size_t k = 0; k < n; ++k) {
+    const double c = -creal(s[2 * k] + s[2 * k + 1]);
+    const double stiffness = creal(s[2 * k] * s[2 * k + 1]);
+    roots(c + step_s * stiffness, stiffness, &w[2 * k]);
+  }
+}
+
+/* What the modes without dampers say of those with them. */
+static Status find_check(const Frame* frame, GeneralCheck* check) {
+  double* const omega = malloc(2 * (size_t)frame->n * sizeof(double));
+  double* const damping = omega + frame->n;
+  const Status status =
+      omega ? symmetric_solve(frame, frame->n, omega, damping, NULL) : STATUS_NO_MEMORY;
+  if (!status) {
+    *check = general_check(frame->n, omega, damping);
+  }
+  free(omega);
+  return status;
+}
+
+/* Pairs of s, rising, and pairs of w beside them. */
+static Status find_pairs(const Frame* frame, double step_s, double complex* s, double complex* w) {
+  const uint32_t n = frame->n;
+  GeneralCheck check = {0};
+  double complex* const expected = malloc(2 * (size_t)n * sizeof(double complex));
+  Status status = expected ? find_check(frame, &check) : STATUS_NO_MEMORY;
+  status = status ? status : general_solve(frame, 0.0, check, s);
+  status = status ? status : general_solve(frame, step_s, check, w);
+  status = status ? status : match_pairs(n, s);
+  if (!status) {
+    qsort(s, n, 2 * sizeof(double complex), compare_pairs);
+    predict(n, step_s, s, expected);
+    status = match_poles(n, expected, w);
+  }
+  free(expected);
+  return status;
+}
+
+/* Pairs of the lowest s, rising, and beside each the nearest of the lowest w, some more than those
+ * that are wanted, since the scheme may order them otherwise. */
+static Status find_few_pairs(
+    const Frame* frame, double step_s, uint32_t n, double complex* s, double complex* w) {
+  const uint32_t n_w = n + MORE_FEW;
+  double complex* const left = malloc(((size_t)n + n_w) * sizeof(double complex));
+  double complex* const upper = left + n_w;
+  Status status = left ? few_solve(frame, 0.0, n, upper) : STATUS_NO_MEMORY;
+  status = status ? status : few_solve(frame, step_s, n_w, left);
+  for (size_t k = 0; k < n && !status; ++k) {
+    s[2 * k] = upper[k];
+    s[2 * k + 1] = conj(upper[k]);
+    predict(1, step_s, &s[2 * k], &w[2 * k]);
+    size_t best = 0;
+    for (size_t i = 1; i < n_w - k; ++i) {
+      best = cabs(left[i] - w[2 * k]) < cabs(left[best] - w[2 * k]) ? i : best;
+    }
+    w[2 * k] = left[best];
+    w[2 * k + 1] = conj(left[best]);
+    left[best] = left[n_w - 1 - k];
+  }
+  free(left);
+  return status;
+}
+
+static Status solve_general(const Frame* frame, Modes* modes) {
+  const double step_s = 1.0 / modes->rate_hz;
+  const size_t n_values = 2 * (size_t)frame->n;
+  double complex* const s = malloc(2 * n_values * sizeof(double complex));
+  double complex* const w = s + n_values;
+  Status status = s ? STATUS_NO_SUCH_MODE : STATUS_NO_MEMORY;
+  if (s && few_is_worth_it(frame, modes->n_modes + MORE_FEW)) {
+    status = find_few_pairs(frame, step_s, modes->n_modes, s, w);
+  }
+  /* Real values are paired among all. */
+  if (status == STATUS_NO_SUCH_MODE || status == STATUS_NO_CONVERGENCE) {
+    status = find_pairs(frame, step_s, s, w);
+  }
+  for (size_t k = 0; k < modes->n_modes && !status; ++k) {
+    fill_mode(&modes->mode[k], step_s, &s[2 * k], &w[2 * k]);
+  }
+  free(s);
+  return status;
+}
+
+/* Where the network is unstable, some pole is real and beyond −1; if rounding hides it, it is the
+ * lowest. */
+static void name_regions(Modes* modes) {
+  double lowest = -1.0;
+  for (uint32_t k = 0; k < modes->n_modes; ++k) {
+    lowest = fmin(lowest, creal(modes->mode[k].pole[0]));
+  }
+  for (uint32_t k = 0; k < modes->n_modes; ++k) {
+    Mode* const mode = &modes->mode[k];
+    const double re = creal(mode->pole[0]);
+    if (!modes->is_stable && re < -1.0 && cimag(mode->pole[0]) == 0.0) {
+      mode->region = POLE_UNSTABLE;
+    } else if (cimag(mode->pole[0]) != 0.0) {
+      mode->region = POLE_COMPLEX;
+    } else {
+      mode->region = re < 0.0 ? POLE_REAL_AT_PI : POLE_REAL_AT_ZERO;
+    }
+  }
+}
+
+static void judge(Modes* modes) {
+  modes->is_stable = 1.0 / modes->rate_hz <= modes->largest_step_s;
+  modes->paper_is_stable = true;
+  for (uint32_t k = 0; k < modes->n_modes; ++k) {
+    const Mode* const mode = &modes->mode[k];
+    const Pole pole = paper_pole(mode, 1.0 / modes->rate_hz);
+    modes->radius = fmax(modes->radius, mode->radius);
+    modes->paper_radius = fmax(modes->paper_radius, mode->paper_radius);
+    modes->paper_is_stable &= pole.a + 2.0 * pole.g <= 4.0 * (1.0 + PAPER_MARGIN);
+  }
+  name_regions(modes);
+}
+
+static Status solve_frame(const Frame* frame, Modes* modes, Modes** out) {
+  const Status status =
+      modes->is_proportional ? solve_proportional(frame, modes) : solve_general(frame, modes);
+  if (status) {
+    free(modes);
+    return status;
+  }
+  judge(modes);
+  *out = modes;
+  return STATUS_OK;
+}
+
+static Status largest_step(const Frame* frame, double* step_s) {
+  Band band;
+  double* const space = malloc(4 * (size_t)frame->n * sizeof(double));
+  Status status = space ? band_init(&band, frame) : STATUS_NO_MEMORY;
+  if (!status) {
+    *step_s = band_largest_step(&band, frame, space);
+    band_clear(&band);
+  }
+  free(space);
+  return status;
+}
+
+Status modes_solve(const Network* network, double rate_hz, uint32_t n_wanted, Modes** modes) {
+  if (!(rate_hz > 0.0) || !isfinite(rate_hz) || !network->is_checked) {
+    return STATUS_BAD_ARGUMENT;
+  }
+  const uint32_t n = network->n_masses;
+  const uint32_t n_modes = n_wanted > 0 && n_wanted < n ? n_wanted : n;
+  Frame frame;
+  double step_s = 0.0;
+  Status status = network_find_free(network, NULL);
+  status = status ? status : frame_init(&frame, network);
+  if (status) {
+    return status;
+  }
+  status = largest_step(&frame, &step_s);
+  Modes* const found = status ? NULL : calloc(1, sizeof(Modes) + n_modes * sizeof(Mode));
+  if (found) {
+    found->rate_hz = rate_hz;
+    found->n_modes = n_modes;
+    found->is_complete = n_modes == n;
+    found->is_proportional = frame_is_proportional(&frame);
+    found->largest_step_s = step_s;
+    status = solve_frame(&frame, found, modes);
+  } else {
+    status = status ? status : STATUS_NO_MEMORY;
+  }
+  frame_clear(&frame);
+  return status;
+}
+
+void modes_free(Modes* modes) {
+  free(modes);
+}
+
+Status modes_largest_step(const Network* network, double* step_s) {
+  Frame frame;
+  Status status = network->is_checked ? network_find_free(network, NULL) : STATUS_BAD_ARGUMENT;
+  status = status ? status : frame_init(&frame, network);
+  if (!status) {
+    status = largest_step(&frame, step_s);
+    frame_clear(&frame);
+  }
+  return status;
+}

@@ -1,0 +1,285 @@
+#include "core/analysis/modes_frame.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Roundings that tell a β K_ij written in decimals from another number. */
+static const double ROUNDINGS = 32.0 * DBL_EPSILON;
+
+static int compare_links(const void* left, const void* right) {
+  const FrameLink* const p = left;
+  const FrameLink* const q = right;
+  if (p->a != q->a) {
+    return p->a < q->a ? -1 : 1;
+  }
+  return p->b < q->b ? -1 : p->b > q->b;
+}
+
+/* The row of each point's mass, and √m of each row. */
+static void number_masses(Frame* frame, const Network* network, uint32_t* row) {
+  for (uint32_t p = 0; p < network->n_points; ++p) {
+    row[p] = FRAME_GROUND;
+    if (!network->is_ground[p]) {
+      frame->root[frame->n] = sqrt(network->mass_kg[p]);
+      row[p] = frame->n++;
+    }
+  }
+}
+
+static void
+take_links(Frame* frame, const NetworkLinks* links, const uint32_t* row, bool is_spring) {
+  for (uint32_t l = 0; l < links->n; ++l) {
+    const uint32_t from = row[links->link[l].from];
+    const uint32_t to = row[links->link[l].to];
+    const double value = links->link[l].value;
+    if (from != to && value > 0.0) {
+      frame->link[frame->n_links++] = (FrameLink){
+          .a = from < to ? from : to,
+          .b = from < to ? to : from,
+          .k = is_spring ? value : 0.0,
+          .z = is_spring ? 0.0 : value,
+      };
+    }
+  }
+}
+
+static void sum_parallel_links(Frame* frame) {
+  qsort(frame->link, frame->n_links, sizeof(FrameLink), compare_links);
+  uint32_t n = 0;
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    if (n > 0 && compare_links(&frame->link[n - 1], &frame->link[l]) == 0) {
+      frame->link[n - 1].k += frame->link[l].k;
+      frame->link[n - 1].z += frame->link[l].z;
+    } else {
+      frame->link[n++] = frame->link[l];
+    }
+  }
+  frame->n_links = n;
+}
+
+/* How far a link is stretched in the state y. */
+static double stretch(const Frame* frame, FrameLink link, const double* y) {
+  const double at_a = y[link.a] / frame->root[link.a];
+  return link.b == FRAME_GROUND ? at_a : at_a - y[link.b] / frame->root[link.b];
+}
+
+/* Add a link of `value` to a matrix. */
+static void fill_link(const Frame* frame, FrameLink link, double value, double* matrix) {
+  const size_t n = frame->n;
+  const double root_a = frame->root[link.a];
+  matrix[link.a + link.a * n] += value / root_a / root_a;
+  if (link.b != FRAME_GROUND) {
+    const double root_b = frame->root[link.b];
+    matrix[link.b + link.b * n] += value / root_b / root_b;
+    matrix[link.a + link.b * n] -= value / root_a / root_b;
+    matrix[link.b + link.a * n] = matrix[link.a + link.b * n];
+  }
+}
+
+static bool is_number(double value, double entry) {
+  return entry <= DBL_MAX && (value == 0.0 || entry >= DBL_MIN);
+}
+
+/* Whether no entry of K̂ or Ẑ overflows, nor is lost. */
+static bool has_numbers(const Frame* frame) {
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const FrameLink link = frame->link[l];
+    const double root_a = frame->root[link.a];
+    const double root_b = link.b == FRAME_GROUND ? root_a : frame->root[link.b];
+    const double least = fmax(root_a, root_b);
+    const double most = fmin(root_a, root_b);
+    if (!is_number(link.k, link.k / most / most) || !is_number(link.z, link.z / most / most) ||
+        !is_number(link.k, link.k / least / least) || !is_number(link.z, link.z / least / least)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/* The β of masses which hang on the ground only: z/m = α + β k/m on a line through two of them. */
+static double guess_beta_to_ground(const Frame* frame) {
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+  double z_low = 0.0;
+  double z_high = 0.0;
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const FrameLink link = frame->link[l];
+    const double mass = frame->root[link.a] * frame->root[link.a];
+    if (link.k / mass < low) {
+      low = link.k / mass;
+      z_low = link.z / mass;
+    }
+    if (link.k / mass > high) {
+      high = link.k / mass;
+      z_high = link.z / mass;
+    }
+  }
+  return high > low ? (z_high - z_low) / (high - low) : 0.0;
+}
+
+/* The β that the stiffest link between two masses admits, if any. */
+static double guess_beta(const Frame* frame) {
+  FrameLink stiffest = {0};
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    if (frame->link[l].b != FRAME_GROUND && frame->link[l].k > stiffest.k) {
+      stiffest = frame->link[l];
+    }
+  }
+  return stiffest.k > 0.0 ? stiffest.z / stiffest.k : guess_beta_to_ground(frame);
+}
+
+/* Whether z_ij = β k_ij between masses, and what is left over to ground is α m. */
+static bool is_split(const Frame* frame, double beta, double* left, double* size) {
+  memset(left, 0, frame->n * sizeof(double));
+  memset(size, 0, frame->n * sizeof(double));
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const FrameLink link = frame->link[l];
+    const double sum = link.z + beta * link.k;
+    size[link.a] += sum;
+    if (link.b == FRAME_GROUND) {
+      left[link.a] += link.z - beta * link.k;
+    } else {
+      size[link.b] += sum;
+      if (!(fabs(link.z - beta * link.k) <= ROUNDINGS * sum)) {
+        return false;
+      }
+    }
+  }
+  double all = 0.0;
+  double mass = 0.0;
+  for (uint32_t i = 0; i < frame->n; ++i) {
+    all += left[i];
+    mass += frame->root[i] * frame->root[i];
+  }
+  for (uint32_t i = 0; i < frame->n; ++i) {
+    const double share = all / mass * frame->root[i] * frame->root[i];
+    if (!(fabs(left[i] - share) <= ROUNDINGS * (size[i] + fabs(share)))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Status frame_init(Frame* frame, const Network* network) {
+  const size_t n_links = (size_t)network->springs.n + network->dampers.n;
+  uint32_t* const row = malloc((network->n_points + 1) * sizeof(uint32_t));
+  *frame = (Frame){
+      .root = malloc((network->n_masses + 1) * sizeof(double)),
+      .link = malloc((n_links + 1) * sizeof(FrameLink)),
+  };
+  if (!row || !frame->root || !frame->link || n_links > UINT32_MAX) {
+    free(row);
+    frame_clear(frame);
+    return STATUS_NO_MEMORY;
+  }
+  number_masses(frame, network, row);
+  take_links(frame, &network->springs, row, true);
+  take_links(frame, &network->dampers, row, false);
+  sum_parallel_links(frame);
+  free(row);
+  if (!has_numbers(frame)) {
+    frame_clear(frame);
+    return STATUS_ILL_SCALED;
+  }
+  return STATUS_OK;
+}
+
+void frame_clear(Frame* frame) {
+  free(frame->root);
+  free(frame->link);
+  *frame = (Frame){0};
+}
+
+FrameForms frame_forms(const Frame* frame, const double complex* y) {
+  FrameForms forms = {0};
+  for (uint32_t i = 0; i < frame->n; ++i) {
+    forms.inertia += y[i] * y[i];
+  }
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const FrameLink link = frame->link[l];
+    double complex length = y[link.a] / frame->root[link.a];
+    if (link.b != FRAME_GROUND) {
+      length -= y[link.b] / frame->root[link.b];
+    }
+    forms.stiffness += link.k * length * length;
+    forms.damping += link.z * length * length;
+  }
+  return forms;
+}
+
+double frame_damping(const Frame* frame, const double* y) {
+  double sum = 0.0;
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const double length = stretch(frame, frame->link[l], y);
+    sum += frame->link[l].z * length * length;
+  }
+  return sum;
+}
+
+void frame_add_drag(const Frame* frame, const double* y, double* sum) {
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const FrameLink link = frame->link[l];
+    const double pull = link.z * stretch(frame, link, y);
+    sum[link.a] += pull / frame->root[link.a];
+    if (link.b != FRAME_GROUND) {
+      sum[link.b] -= pull / frame->root[link.b];
+    }
+  }
+}
+
+void frame_fill_stiffness(const Frame* frame, double* matrix) {
+  memset(matrix, 0, (size_t)frame->n * frame->n * sizeof(double));
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    fill_link(frame, frame->link[l], frame->link[l].k, matrix);
+  }
+}
+
+void frame_fill_damping(const Frame* frame, double* matrix) {
+  memset(matrix, 0, (size_t)frame->n * frame->n * sizeof(double));
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    fill_link(frame, frame->link[l], frame->link[l].z, matrix);
+  }
+}
+
+uint32_t frame_count_edges(const Frame* frame) {
+  uint32_t n_edges = 0;
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    n_edges += frame->link[l].k > 0.0 ? 1 : 0;
+  }
+  return n_edges;
+}
+
+void frame_fill_edges(const Frame* frame, uint32_t n_edges, double* edges) {
+  memset(edges, 0, (size_t)n_edges * frame->n * sizeof(double));
+  uint32_t e = 0;
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const FrameLink link = frame->link[l];
+    if (link.k > 0.0) {
+      edges[e + (size_t)link.a * n_edges] = sqrt(link.k) / frame->root[link.a];
+      if (link.b != FRAME_GROUND) {
+        edges[e + (size_t)link.b * n_edges] = -sqrt(link.k) / frame->root[link.b];
+      }
+      ++e;
+    }
+  }
+}
+
+void frame_stretch_edges(const Frame* frame, const double* y, double* stretches) {
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    if (frame->link[l].k > 0.0) {
+      *stretches++ = sqrt(frame->link[l].k) * stretch(frame, frame->link[l], y);
+    }
+  }
+}
+
+bool frame_is_proportional(const Frame* frame) {
+  double* const space = malloc(2 * ((size_t)frame->n + 1) * sizeof(double));
+  /* Without room to tell, the general solver is right as well. */
+  const bool is_proportional =
+      space && (is_split(frame, guess_beta(frame), space, space + frame->n) ||
+                is_split(frame, 0.0, space, space + frame->n));
+  free(space);
+  return is_proportional;
+}

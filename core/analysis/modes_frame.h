@@ -1,0 +1,75 @@
+/**
+   A network as the solvers want it: links between the same two masses summed, and coordinates
+   y = M^½ x in which the masses are all 1, so that with K̂ = M^−½ K M^−½ and Ẑ alike
+
+       s² y + s Ẑ y + K̂ y = 0.
+
+   Part of core/analysis/modes.
+*/
+#ifndef HOOKE_CORE_ANALYSIS_MODES_FRAME_H
+#define HOOKE_CORE_ANALYSIS_MODES_FRAME_H
+
+#include "core/analysis/network.h"
+#include "core/base/status.h"
+
+#include <complex.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+/** In the place of a mass: a grounded point. */
+#define FRAME_GROUND UINT32_MAX
+
+/** All springs and dampers between two masses, or between a mass and the ground. */
+typedef struct {
+  uint32_t a;
+  uint32_t b; /**< > a, or FRAME_GROUND */
+  double k;   /**< Stiffness [N/m] */
+  double z;   /**< Damping [kg/s] */
+} FrameLink;
+
+typedef struct {
+  uint32_t n; /**< Masses, numbered as their points come */
+  uint32_t n_links;
+  double* root;    /**< √m, n */
+  FrameLink* link; /**< In order of a, then b */
+} Frame;
+
+/** @return STATUS_OK; or, with nothing to be cleared, STATUS_NO_MEMORY, or STATUS_ILL_SCALED where
+ * an entry of K̂ or Ẑ is too large or too small for a number */
+Status frame_init(Frame* frame, const Network* network);
+void frame_clear(Frame* frame);
+
+/** The quadratic forms of a shape. */
+typedef struct {
+  double complex inertia;   /**< yᵀ y */
+  double complex stiffness; /**< yᵀ K̂ y */
+  double complex damping;   /**< yᵀ Ẑ y */
+} FrameForms;
+
+/** The forms of y, without conjugation, link by link: of a real y, sums of what is not negative, so
+ * exact to a few roundings. */
+FrameForms frame_forms(const Frame* frame, const double complex* y);
+
+/** yᵀ Ẑ y of a real y, in the same way. */
+double frame_damping(const Frame* frame, const double* y);
+
+/** Add Ẑ y of a real y to `sum`, n. */
+void frame_add_drag(const Frame* frame, const double* y, double* sum);
+
+/** Fill K̂ or Ẑ; n × n, column-major, ld = n. */
+void frame_fill_stiffness(const Frame* frame, double* matrix);
+void frame_fill_damping(const Frame* frame, double* matrix);
+
+/** How many links have stiffness: the rows of frame_fill_edges(). */
+uint32_t frame_count_edges(const Frame* frame);
+
+/** Fill B with BᵀB = K̂, a row √k (e_a/√m_a − e_b/√m_b) a spring; n_edges × n, column-major. */
+void frame_fill_edges(const Frame* frame, uint32_t n_edges, double* edges);
+
+/** The stretches B y, n_edges, without cancellation of what was multiplied before. */
+void frame_stretch_edges(const Frame* frame, const double* y, double* stretches);
+
+/** Whether Z = α M + β K for some α and β, to a few roundings of each entry. */
+bool frame_is_proportional(const Frame* frame);
+
+#endif

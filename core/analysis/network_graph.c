@@ -1,0 +1,187 @@
+/* What can be said of a network without stepping it: whether it is well formed, its parts, its
+ * matrices. */
+
+#include "core/analysis/network.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static Status check_link(const Network* network, NetworkLink link) {
+  if (!(link.value >= 0.0) || !isfinite(link.value)) {
+    return STATUS_BAD_LINK;
+  }
+  if (link.from >= network->n_points || link.to >= network->n_points) {
+    return STATUS_NO_SUCH_POINT;
+  }
+  return link.from == link.to ? STATUS_SELF_LINK : STATUS_OK;
+}
+
+static Status check_links(const Network* network, const NetworkLinks* links, uint32_t* index) {
+  for (uint32_t l = 0; l < links->n; ++l) {
+    const Status status = check_link(network, links->link[l]);
+    if (status) {
+      *index = l;
+      return status;
+    }
+  }
+  return STATUS_OK;
+}
+
+static Status check_points(const Network* network, uint32_t* index) {
+  for (uint32_t p = 0; p < network->n_points; ++p) {
+    if (!network->is_ground[p] &&
+        (!(network->mass_kg[p] > 0.0) || !isfinite(network->mass_kg[p]))) {
+      *index = p;
+      return STATUS_BAD_MASS;
+    }
+  }
+  return STATUS_OK;
+}
+
+/* The representative of a point's part, halving the way to it. */
+static uint32_t root_of(uint32_t* parent, uint32_t p) {
+  while (parent[p] != p) {
+    parent[p] = parent[parent[p]];
+    p = parent[p];
+  }
+  return p;
+}
+
+/* The lower of two representatives speaks for both, so that parts come in order. */
+static void join(uint32_t* parent, uint32_t a, uint32_t b) {
+  const uint32_t root_a = root_of(parent, a);
+  const uint32_t root_b = root_of(parent, b);
+  parent[root_a > root_b ? root_a : root_b] = root_a > root_b ? root_b : root_a;
+}
+
+/* Each point's representative; a grounded point is its own. */
+static void find_roots(const Network* network, uint32_t* parent) {
+  for (uint32_t p = 0; p < network->n_points; ++p) {
+    parent[p] = p;
+  }
+  for (uint32_t s = 0; s < network->springs.n; ++s) {
+    const NetworkLink spring = network->springs.link[s];
+    if (spring.value > 0.0 && !network->is_ground[spring.from] && !network->is_ground[spring.to]) {
+      join(parent, spring.from, spring.to);
+    }
+  }
+  for (uint32_t p = 0; p < network->n_points; ++p) {
+    parent[p] = root_of(parent, p);
+  }
+}
+
+static void mark_tied(const Network* network, const uint32_t* root, bool* is_tied) {
+  for (uint32_t s = 0; s < network->springs.n; ++s) {
+    const NetworkLink spring = network->springs.link[s];
+    if (spring.value > 0.0 && network->is_ground[spring.from] != network->is_ground[spring.to]) {
+      is_tied[root[network->is_ground[spring.from] ? spring.to : spring.from]] = true;
+    }
+  }
+}
+
+static void fill_links(const NetworkLinks* links, const uint32_t* row, size_t n, double* matrix) {
+  memset(matrix, 0, n * n * sizeof(double));
+  for (uint32_t l = 0; l < links->n; ++l) {
+    const NetworkLink link = links->link[l];
+    const size_t ends[2] = {row[link.from], row[link.to]};
+    for (int e = 0; e < 2; ++e) {
+      if (ends[e] != UINT32_MAX) {
+        matrix[ends[e] + ends[e] * n] += link.value;
+      }
+    }
+    if (ends[0] != UINT32_MAX && ends[1] != UINT32_MAX) {
+      matrix[ends[0] + ends[1] * n] -= link.value;
+      matrix[ends[1] + ends[0] * n] -= link.value;
+    }
+  }
+}
+
+Status network_check(Network* network, NetworkFault* fault) {
+  NetworkFault found = {NETWORK_POINT, 0};
+  Status status = network->n_masses ? STATUS_OK : STATUS_EMPTY;
+  if (!status) {
+    status = check_points(network, &found.index);
+  }
+  if (!status) {
+    status = check_links(network, &network->springs, &found.index);
+    found.element = NETWORK_SPRING;
+  }
+  if (!status) {
+    status = check_links(network, &network->dampers, &found.index);
+    found.element = NETWORK_DAMPER;
+  }
+  if (status && fault) {
+    *fault = found;
+  }
+  network->is_checked = !status;
+  return status;
+}
+
+Status network_find_parts(const Network* network, uint32_t* part, uint32_t* n_parts) {
+  const size_t n = network->n_points;
+  uint32_t* const root = malloc((n ? n : 1) * sizeof(uint32_t));
+  if (!root) {
+    return STATUS_NO_MEMORY;
+  }
+  find_roots(network, root);
+  uint32_t count = 0;
+  for (uint32_t p = 0; p < network->n_points; ++p) {
+    if (network->is_ground[p]) {
+      part[p] = UINT32_MAX;
+    } else {
+      part[p] = root[p] == p ? count++ : part[root[p]];
+    }
+  }
+  *n_parts = count;
+  free(root);
+  return STATUS_OK;
+}
+
+Status network_find_free(const Network* network, NetworkFault* fault) {
+  const size_t n = network->n_points;
+  uint32_t* const root = malloc((n ? n : 1) * sizeof(uint32_t));
+  bool* const is_tied = calloc(n ? n : 1, sizeof(bool));
+  Status status = root && is_tied ? STATUS_OK : STATUS_NO_MEMORY;
+  if (!status) {
+    find_roots(network, root);
+    mark_tied(network, root, is_tied);
+    uint32_t p = 0;
+    while (p < n && (network->is_ground[p] || is_tied[root[p]])) {
+      ++p;
+    }
+    if (p < n) {
+      status = STATUS_FREE;
+      if (fault) {
+        *fault = (NetworkFault){.element = NETWORK_POINT, .index = p};
+      }
+    }
+  }
+  free(root);
+  free(is_tied);
+  return status;
+}
+
+Status
+network_matrices(const Network* network, double* mass_kg, double* stiffness, double* damping) {
+  uint32_t* const row = malloc((network->n_points + (size_t)1) * sizeof(uint32_t));
+  if (!row) {
+    return STATUS_NO_MEMORY;
+  }
+  uint32_t n = 0;
+  for (uint32_t p = 0; p < network->n_points; ++p) {
+    row[p] = UINT32_MAX;
+    if (!network->is_ground[p]) {
+      mass_kg[n] = network->mass_kg[p];
+      row[p] = n++;
+    }
+  }
+  if (stiffness) {
+    fill_links(&network->springs, row, n, stiffness);
+  }
+  if (damping) {
+    fill_links(&network->dampers, row, n, damping);
+  }
+  free(row);
+  return STATUS_OK;
+}

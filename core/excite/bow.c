@@ -1,0 +1,212 @@
+#include "core/excite/bow.h"
+
+#include "core/excite/contact.h"
+
+#include <float.h>
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Friction at rest and where it slips fast, and the speed, of that with which Helmholtz's string
+ * slips back, at which it is half way. */
+static const double STATIC = 0.8;
+static const double DYNAMIC = 0.3;
+static const double HALF_WAY = 1.0;
+
+/* The string's twist under the hair: its damper, of the string's impedance, and the time in which
+ * its spring gives way to it, of a period. */
+static const double ROLL = 1.0;
+static const double ROLL_TIME = 0.06;
+
+/* A bow is so wide that it comes no nearer to a wall, nor so near that a slip would take fewer
+ * frames than these; and further out the string is all too ready to slip twice a period. */
+static const double LEAST_PLACE = 0.03;
+static const double SLIP_FRAMES = 3.0;
+static const double MOST_PLACE = 0.3;
+
+/* A node of the fourth partial, on which nothing holds the string to its own period, and how far
+ * the bow keeps from it. */
+static const double NODE = 0.25;
+static const double NODE_WIDTH = 0.015;
+
+/* Force, of the most with which each round of the string still pulls the hair off, for no pressure
+ * and for all. */
+static const double LIGHTEST = 0.65;
+static const double HEAVIEST = 1.6;
+
+/* The most that it can swell to. */
+static const double STRONGEST = 2.0;
+
+/* What the hair and the string settle in a step. */
+typedef struct {
+  double free;  /* v without friction */
+  double yield; /* What v gives way to a force of 1 */
+  double force; /* F */
+  double v0;
+} Meeting;
+
+static double friction_at(const Meeting* m, double speed) {
+  return m->force * (DYNAMIC + (STATIC - DYNAMIC) / (1.0 + speed / m->v0));
+}
+
+/*
+  How fast it slips, |v|, where `free` is counted in its direction: with w = free − yield F μd,
+
+      v² + (v0 − w) v − w v0 + yield F (μs − μd) v0 = 0,
+
+  of which the larger root is the one that is there to stay.
+*/
+static double slip_of(const Meeting* m, double free) {
+  const double w = free - m->yield * m->force * DYNAMIC;
+  const double sum = m->v0 + w;
+  const double discriminant = sum * sum - 4.0 * m->yield * m->force * (STATIC - DYNAMIC) * m->v0;
+  return fmax(0.0, 0.5 * (w - m->v0 + sqrt(fmax(0.0, discriminant))));
+}
+
+static BowGrip grip_of(const Meeting* m) {
+  if (fabs(m->free) <= m->yield * m->force * STATIC) {
+    return BOW_STICKS;
+  }
+  return m->free > 0.0 ? BOW_SLIPS_AHEAD : BOW_SLIPS_BACK;
+}
+
+static void settle(Bow* bow, const Meeting* m) {
+  bow->grip = grip_of(m);
+  if (bow->grip == BOW_STICKS) {
+    bow->slip = 0.0;
+    bow->friction = -m->free / m->yield;
+  } else {
+    const double sign = bow->grip == BOW_SLIPS_BACK ? -1.0 : 1.0;
+    const double speed = slip_of(m, sign * m->free);
+    bow->slip = sign * speed;
+    bow->friction = -sign * friction_at(m, speed);
+  }
+}
+
+static BowGlide still(double value) {
+  return (BowGlide){.now = value, .goal = value};
+}
+
+static void glide_to(BowGlide* glide, double goal, uint32_t n_frames) {
+  if (n_frames == 0) {
+    *glide = still(goal);
+    return;
+  }
+  glide->goal = goal;
+  glide->change = (goal - glide->now) / n_frames;
+  glide->n_left = n_frames;
+}
+
+static void glide_on(BowGlide* glide) {
+  if (glide->n_left > 0) {
+    glide->now = --glide->n_left > 0 ? glide->now + glide->change : glide->goal;
+  }
+}
+
+static void follow(Bow* bow) {
+  glide_on(&bow->strength);
+  glide_on(&bow->drawn);
+  glide_on(&bow->paced);
+  glide_on(&bow->pressed);
+  bow->hair = bow->strength.now * bow->drawn.now;
+  bow->is_active = !bow->is_lifted || bow->pressed.n_left > 0;
+}
+
+/* What comes next is seen from where the bow will be. */
+static void move_on(Bow* bow, const Chain* chain) {
+  if (bow->place.n_left > 0) {
+    glide_on(&bow->place);
+    bow_look(bow, chain);
+  }
+}
+
+/* What it does is what it did, for a strength of 1, and the roll keeps its energy. */
+static void take_over(Bow* bow, double spring) {
+  bow->rolled *= sqrt(bow->spring / spring);
+  bow->drawn.now *= bow->strength.now;
+  bow->paced.now *= bow->strength.now;
+  bow->pressed.now *= bow->strength.now;
+  bow->is_lifted = false;
+}
+
+/* Where it can be bowed: fraction of the length from the nearer wall, then from the one. */
+double bow_place(double wanted, double angle1) {
+  const double least = fmax(LEAST_PLACE, SLIP_FRAMES * angle1 / (2.0 * PI));
+  double beta = fmin(fmax(fmin(wanted, 1.0 - wanted), least), MOST_PLACE);
+  if (fabs(beta - NODE) < NODE_WIDTH) {
+    beta = beta < NODE ? NODE - NODE_WIDTH : NODE + NODE_WIDTH;
+  }
+  return wanted > 0.5 ? 1.0 - beta : beta;
+}
+
+static uint32_t frames_of(double time_s, double rate_hz) {
+  return (uint32_t)fmax(1.0, round(time_s * rate_hz));
+}
+
+void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, double rate_hz) {
+  const double place = bow_place(stroke.place, angle1);
+  const double beta = fmin(place, 1.0 - place);
+  const double speed = 8.0 * beta * (1.0 - beta) * stroke.amplitude * angle1 / (2.0 * PI);
+  /* Schelleng's most: the corner brings 2 √k1 b/β, and friction falls by so much at its slip. */
+  const double heavy = 2.0 * (1.0 + HALF_WAY) / (beta * (STATIC - DYNAMIC));
+  const double force = heavy * LIGHTEST * pow(HEAVIEST / LIGHTEST, stroke.pressure) * speed;
+  const double spring = ROLL * angle1 / (2.0 * PI * ROLL_TIME);
+  const uint32_t n_attack = frames_of(stroke.attack_s, rate_hz);
+  if (bow->is_active) {
+    take_over(bow, spring);
+  } else {
+    *bow = (Bow){.place = still(place), .paced = still(speed), .is_active = true};
+  }
+  bow->strength = still(1.0);
+  glide_to(&bow->place, place, n_attack);
+  glide_to(&bow->drawn, speed, n_attack);
+  glide_to(&bow->paced, speed, n_attack);
+  glide_to(&bow->pressed, force, frames_of(0.5 * stroke.attack_s, rate_hz));
+  bow->n_lift = frames_of(stroke.release_s, rate_hz);
+  bow->spring = spring;
+  bow_look(bow, chain);
+}
+
+void bow_swell(Bow* bow, double strength, uint32_t n_frames) {
+  glide_to(&bow->strength, fmin(fmax(strength, 0.0), STRONGEST), n_frames);
+}
+
+void bow_lift(Bow* bow) {
+  if (!bow->is_lifted) {
+    bow->is_lifted = true;
+    glide_to(&bow->pressed, 0.0, bow->n_lift);
+  }
+}
+
+void bow_look(Bow* bow, const Chain* chain) {
+  const Contact contact = contact_at(chain, bow->place.now);
+  bow->before = contact_velocity(chain, &contact);
+}
+
+bool bow_act(Bow* bow, Chain* chain) {
+  if (!bow->is_active) {
+    return false;
+  }
+  const Contact contact = contact_at(chain, bow->place.now);
+  const double impedance = sqrt(chain->now.k1);
+  const double beta = fmin(bow->place.now, 1.0 - bow->place.now);
+  const double after = contact_velocity(chain, &contact);
+  follow(bow);
+  const double spring = impedance * bow->spring;
+  const double roll = 1.0 / (impedance * ROLL + 0.5 * spring);
+  const double yield = 0.5 * contact.square + roll;
+  const double force = bow->strength.now * bow->pressed.now * impedance;
+  const double pace = bow->strength.now * bow->paced.now;
+  const Meeting m = {
+      .free = 0.5 * (after + bow->before) - bow->hair - roll * spring * bow->rolled,
+      .yield = yield,
+      .force = force,
+      .v0 = fmax(DBL_MIN, fmax(HALF_WAY * pace / beta, yield * force * (STATIC - DYNAMIC))),
+  };
+  settle(bow, &m);
+  bow->rolled += roll * (bow->friction - spring * bow->rolled);
+  contact_push(chain, &contact, bow->friction);
+  bow->before = after + contact.square * bow->friction;
+  move_on(bow, chain);
+  return bow->is_active;
+}

@@ -1,0 +1,74 @@
+/**
+   What an exciter gives to each mode of a string at rest, in closed form but for the hammer's.
+
+   A mode k swings as X_k sin(kπx) sin(ω_k n), and X_k² is what this room tells:
+
+   - a pluck pushes the string over a finger's width (core/excite/exciter.h), the transform of whose
+   raised cosine, cut off at the walls as it may be, has a closed form in the cosines of its two
+   edges; of few masses, those under it are summed one by one;
+   - a strike's is the spectrum of a hammer's rehearsal (core/excite/rehearsal.h), which falls on as
+   it last did where that has no more masses;
+   - under a bow the string is carried along but for a moment of every period, so all harmonics of
+     the speed at the bow, B, are alike.  Mode k is moved by k X_k s with s = sin(kπp), and what
+     it loses must be made up for through the same s, so k X_k = B s/(s² + ε²); the corner that
+     goes round is the rounder the slower it goes and the wider the bow's side is.  Of a bow that is
+     drawn far from the walls only the mean is known: the string may slip twice in a period, or
+     thrice.
+
+   Thread: any; real-time safe.
+*/
+#ifndef HOOKE_CORE_EXCITE_SPECTRUM_H
+#define HOOKE_CORE_EXCITE_SPECTRUM_H
+
+#include "core/excite/exciter.h"
+#include "core/excite/hammer.h"
+#include "core/excite/rehearsal.h"
+#include "core/harp/patch.h"
+#include "core/string/pole.h"
+
+#include <stdint.h>
+
+/** So few plucked masses are summed one by one. */
+enum { SPECTRUM_FEW = 48 };
+
+/** Make one by a function below; amplitudes are for a pluck, strike or stroke of amplitude 1. */
+typedef struct {
+  Exciter exciter;
+  double angles[2]; /**< Mode k is told the cosines of k times these, see spectrum_square() */
+  double push;      /**< What a pluck at one point would give to X_k sin ω_k; or B */
+  double width;     /**< Half of the finger's, in radians of the fundamental's shape */
+  double edges[2]; /**< Cosine of the finger's own phase at each edge, −1 where no wall cuts it */
+  double angle1;   /**< The fundamental's digital angular frequency [rad per sample] */
+  double first;    /**< Of a bow: what the first partial's power is multiplied by */
+  double corner;   /**< Of a bow: the square of the partial above which the corner is round */
+  uint32_t
+      n_shares; /**< Partials that its rehearsal is believed of; or all, of few plucked masses */
+  double shares[SPECTRUM_FEW]; /**< Their push squared: of the first's; or of `push` */
+  double last;                 /**< The mean of the last of them, from which the rest go on */
+  double fall;                 /**< What it changes by from a partial to the next, ≤ 1 */
+} Spectrum;
+
+/**
+   Of a pluck.
+
+   @param n_masses  N ≥ 1
+   @param angle1    2πF/rate [rad per sample], 0 to π
+*/
+Spectrum spectrum_of_pluck(uint32_t n_masses, Pluck pluck, double angle1);
+
+/** Of a strike, whose amplitude matters: louder ones are brighter. */
+Spectrum spectrum_of_strike(uint32_t n_masses, Strike strike, double angle1);
+
+/** Of a bow, once it is drawn in full. @param hz  The fundamental's frequency [Hz], > 0 */
+Spectrum spectrum_of_bow(double place, double angle1, double hz);
+
+/**
+   X_k².
+
+   @param k        1 to N
+   @param mode     Mode k of the string, 0 < a < 4
+   @param cosines  cos(k angles[0]) and cos(k angles[1])
+*/
+double spectrum_square(const Spectrum* spectrum, uint32_t k, Pole mode, const double cosines[2]);
+
+#endif

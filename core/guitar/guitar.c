@@ -1,0 +1,272 @@
+#include "core/guitar/guitar.h"
+
+#include "core/base/aligned.h"
+#include "core/guitar/guitar_mixer.h"
+#include "core/guitar/guitar_string.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How much harder the hardest pluck is than the one where the patch's hardness is what it says. */
+static const double FORCE_HARDNESS = 0.25;
+static const double FORCE_NEUTRAL = 0.75;
+
+/* A finger that falls or pulls off, against a pluck of the same force. */
+static const double HAMMER_GAIN = 0.4;
+static const double HAMMER_HARDNESS = 0.4;
+
+/* The strings beside the others: an octave higher but for the highest third, and a little sharp, so
+ * that they beat [semitones]. */
+static const double COURSE_DETUNE = 0.03;
+
+struct Guitar {
+  double rate_hz;
+  uint32_t n_gesture;
+  GuitarPatch patch; /* With the palm's weight in it */
+  double palm;       /* The patch's */
+  double weight;     /* What guitar_palm() adds */
+  GuitarString strings[GUITAR_WIRES];
+  GuitarString rests[GUITAR_WIRES]; /* What they did before they were plucked again */
+  void* memory;                     /* Of all strings; owned */
+  GuitarMixer mixer;
+};
+
+static const GuitarPatch usual = {
+    .string = {.level = 1.0,
+               .damping_per_s = 0.6,
+               .tracking = 0.5,
+               .loss = 0.01,
+               .partials = PARTIALS_TRUEST,
+               .pluck = 0.13,
+               .hardness = 0.5,
+               .release_s = 0.1,
+               .tuning_hz = 440.0,
+               .max_masses = 80},
+    .pickups = {{0.1, 1.0}, {0.25, 0.0}},
+    .open = {64.0, 59.0, 55.0, 50.0, 45.0, 40.0},
+    .n_strings = 6,
+};
+
+static double clamp(double value, double low, double high) {
+  return fmin(fmax(value, low), high);
+}
+
+/* In frames, no shorter than a gesture. */
+static uint32_t frames_of(const Guitar* guitar, double time_s) {
+  const double frames = round(time_s * guitar->rate_hz);
+  return (uint32_t)clamp(frames, guitar->n_gesture, (double)INT32_MAX);
+}
+
+/* A string and the one beside it: `side` 0 and 1. */
+static GuitarString* string_of(Guitar* guitar, uint32_t string, int side) {
+  return &guitar->strings[string + (side ? GUITAR_STRINGS : 0)];
+}
+
+static GuitarString* rest_of(Guitar* guitar, const GuitarString* string) {
+  return &guitar->rests[string - guitar->strings];
+}
+
+static bool has(const Guitar* guitar, uint32_t string) {
+  return string < guitar->patch.n_strings;
+}
+
+static double beside(const GuitarPatch* patch, uint32_t string) {
+  return (3 * string < patch->n_strings ? 0.0 : 12.0) + COURSE_DETUNE;
+}
+
+static void set_palm(Guitar* guitar) {
+  guitar->patch.palm = fmin(1.0, guitar->palm + guitar->weight);
+}
+
+static void follow_all(Guitar* guitar, uint32_t n_frames) {
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+    guitar_string_follow(&guitar->strings[w], &guitar->patch, n_frames);
+  }
+}
+
+double guitar_force(uint32_t velocity) {
+  const double share = velocity / 127.0;
+  return share * share;
+}
+
+Guitar* guitar_new(double rate_hz) {
+  Guitar* const guitar = isfinite(rate_hz) && rate_hz > 0.0 ? calloc(1, sizeof(Guitar)) : NULL;
+  if (!guitar) {
+    return NULL;
+  }
+  const size_t size = chain_size(GUITAR_MAX_MASSES);
+  guitar->rate_hz = rate_hz;
+  guitar->n_gesture = wire_gesture_frames(rate_hz);
+  guitar->memory = aligned_new(CHAIN_ALIGNMENT, 2 * GUITAR_WIRES * size);
+  if (!guitar->memory) {
+    guitar_free(guitar);
+    return NULL;
+  }
+  memset(guitar->memory, 0, 2 * GUITAR_WIRES * size);
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+    char* const memory = (char*)guitar->memory + 2 * w * size;
+    guitar_string_init(&guitar->strings[w], rate_hz, w, memory);
+    guitar_string_init(&guitar->rests[w], rate_hz, w, memory + size);
+  }
+  guitar_set_patch(guitar, &usual, 0);
+  return guitar;
+}
+
+void guitar_free(Guitar* guitar) {
+  if (guitar) {
+    aligned_free(guitar->memory);
+    free(guitar);
+  }
+}
+
+double guitar_rate_hz(const Guitar* guitar) {
+  return guitar->rate_hz;
+}
+
+void guitar_reset(Guitar* guitar) {
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+    guitar_string_reset(&guitar->strings[w]);
+    guitar_string_reset(&guitar->rests[w]);
+  }
+  guitar->weight = 0.0;
+  set_palm(guitar);
+}
+
+void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frames) {
+  const uint32_t n_glide =
+      n_frames > 0 && n_frames < guitar->n_gesture ? guitar->n_gesture : n_frames;
+  guitar->patch = *patch;
+  guitar->palm = patch->palm;
+  set_palm(guitar);
+  guitar_mixer_set(&guitar->mixer, &guitar->patch, n_glide);
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    string_of(guitar, s, 0)->open = patch->open[s];
+    string_of(guitar, s, 1)->open = patch->open[s] + beside(patch, s);
+    for (int side = 0; !has(guitar, s) && side < 2; ++side) {
+      guitar_string_damp(string_of(guitar, s, side), &guitar->patch, GUITAR_CHOKED, 0);
+    }
+  }
+  follow_all(guitar, n_glide);
+}
+
+void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
+  const Patch* const patch = &guitar->patch.string;
+  const double harder = FORCE_HARDNESS * (sqrt(fabs(pluck.force)) - FORCE_NEUTRAL);
+  const double place = isnan(pluck.place) ? patch->pluck : pluck.place;
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    GuitarString* const s = string_of(guitar, string, side);
+    const double share = side ? guitar->patch.course : 1.0;
+    if (share > 0.0 || s->wire.is_awake) {
+      const Pluck own = {
+          .place = guitar_string_place(s, &guitar->patch, place),
+          .hardness =
+              isnan(pluck.hardness) ? clamp(patch->hardness + harder, 0.0, 1.0) : pluck.hardness,
+          .amplitude = GUITAR_NOTE_PEAK * share * pluck.force,
+      };
+      guitar_string_leave(s, rest_of(guitar, s), &guitar->patch);
+      guitar_string_pluck(s, &guitar->patch, own);
+    }
+  }
+}
+
+void guitar_fret(Guitar* guitar, uint32_t string, double fret) {
+  guitar_slide(guitar, string, fret, 0.0);
+}
+
+void guitar_hammer(Guitar* guitar, uint32_t string, double fret, double force) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    GuitarString* const s = string_of(guitar, string, side);
+    const double share = side ? guitar->patch.course : 1.0;
+    const double frets = s->motion.fret.goal - fret;
+    guitar_string_slide(s, &guitar->patch, fret, guitar->n_gesture);
+    if (share > 0.0 || s->wire.is_awake) {
+      const Pluck own = {
+          .place = fmin(exp2(-fmax(frets, 0.0) / 12.0), GUITAR_FARTHEST),
+          .hardness = HAMMER_HARDNESS,
+          .amplitude = GUITAR_NOTE_PEAK * HAMMER_GAIN * share * force,
+      };
+      guitar_string_pluck(s, &guitar->patch, own);
+    }
+  }
+}
+
+void guitar_slide(Guitar* guitar, uint32_t string, double fret, double time_s) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_slide(string_of(guitar, string, side), &guitar->patch, fret,
+                        frames_of(guitar, time_s));
+  }
+}
+
+void guitar_bend(Guitar* guitar, uint32_t string, double semitones, double time_s) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_bend(string_of(guitar, string, side), &guitar->patch, semitones,
+                       frames_of(guitar, time_s));
+  }
+}
+
+void guitar_vibrato(Guitar* guitar, uint32_t string, double depth, double rate_hz) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_vibrato(string_of(guitar, string, side), &guitar->patch, depth,
+                          rate_hz / guitar->rate_hz);
+  }
+}
+
+void guitar_damp(Guitar* guitar, uint32_t string, double time_s) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_damp(string_of(guitar, string, side), &guitar->patch, GUITAR_DAMPED,
+                       isinf(time_s) ? 0 : frames_of(guitar, time_s));
+  }
+}
+
+void guitar_let_ring(Guitar* guitar, uint32_t string) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_damp(string_of(guitar, string, side), &guitar->patch, GUITAR_RINGING, 0);
+  }
+}
+
+void guitar_touch(Guitar* guitar, uint32_t string, double place, double time_s) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    guitar_string_touch(string_of(guitar, string, side), place, frames_of(guitar, time_s));
+  }
+}
+
+void guitar_palm(Guitar* guitar, double weight) {
+  guitar->weight = weight;
+  set_palm(guitar);
+  follow_all(guitar, guitar->n_gesture);
+}
+
+void guitar_choke(Guitar* guitar) {
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+    guitar_string_damp(&guitar->strings[w], &guitar->patch, GUITAR_CHOKED, 0);
+    guitar_string_untouch(&guitar->strings[w]);
+  }
+}
+
+bool guitar_is_awake(const Guitar* guitar, uint32_t string) {
+  return has(guitar, string) && (guitar->strings[string].wire.is_awake ||
+                                 guitar->strings[string + GUITAR_STRINGS].wire.is_awake);
+}
+
+double guitar_fretted(const Guitar* guitar, uint32_t string) {
+  return has(guitar, string) ? guitar->strings[string].motion.fret.goal : 0.0;
+}
+
+GuitarReport guitar_report(const Guitar* guitar) {
+  GuitarReport report = {.headroom = 1.0};
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+    const Wire* const wire = &guitar->strings[w].wire;
+    if (wire->is_awake) {
+      ++report.n_strings;
+      report.n_masses += wire->chain.n_masses;
+      report.headroom = fmin(report.headroom, wire->headroom);
+    }
+  }
+  return report;
+}
+
+void guitar_run(Guitar* guitar, uint32_t n_frames, float* left, float* right) {
+  guitar_mixer_run(&guitar->mixer, guitar->strings, guitar->rests, &guitar->patch, n_frames, left,
+                   right);
+}

@@ -1,0 +1,55 @@
+/**
+   What the hands do, as data: the events of the paper's script.
+
+   An event is sent to the plugin as the body of an atom of type GUITAR_EVENT_URI, and acts at its
+   frame.
+
+   Thread: any; guitar_event_play() as the guitar.
+*/
+#ifndef HOOKE_CORE_GUITAR_GUITAR_EVENT_H
+#define HOOKE_CORE_GUITAR_GUITAR_EVENT_H
+
+#include "core/guitar/guitar.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** The type of the atoms that hold a GuitarEvent. */
+#define GUITAR_EVENT_URI "urn:hooke:guitar#event"
+
+/**
+   X(VERB, value 0, value 1, value 2): all events and what their values are; none is "".  They are
+   those of the functions of core/guitar/guitar.h of the same name.
+*/
+#define GUITAR_VERBS(X)                                                                            \
+  X(PLUCK, "force", "place", "hardness")                                                           \
+  X(FRET, "fret", "", "")                                                                          \
+  X(HAMMER, "fret", "force", "")                                                                   \
+  X(SLIDE, "fret", "time", "")                                                                     \
+  X(BEND, "semitones", "time", "")                                                                 \
+  X(VIBRATO, "depth", "rate", "")                                                                  \
+  X(DAMP, "time", "", "")                                                                          \
+  X(LET_RING, "", "", "")                                                                          \
+  X(TOUCH, "place", "time", "")                                                                    \
+  X(PALM, "weight", "", "")
+
+#define GUITAR_VERB_ENUM(verb, a, b, c) GUITAR_##verb,
+typedef enum { GUITAR_VERBS(GUITAR_VERB_ENUM) GUITAR_N_VERBS } GuitarVerb;
+#undef GUITAR_VERB_ENUM
+
+/** One event; what it does not use is 0. */
+typedef struct {
+  uint32_t verb;   /**< A GuitarVerb */
+  uint32_t string; /**< From 0, the highest */
+  float value[3];  /**< As GUITAR_VERBS says; times in seconds; NAN where the function takes it */
+} GuitarEvent;
+
+/**
+   Do what an event says.  GUITAR_PALM is of all strings.
+
+   @return false, and nothing done, if it is of no known verb, of no string that there can be, or a
+   value is out of the range of its function
+*/
+bool guitar_event_play(Guitar* guitar, const GuitarEvent* event);
+
+#endif

@@ -1,0 +1,108 @@
+#include "core/guitar/guitar_mixer.h"
+
+#include <math.h>
+#include <string.h>
+
+/* How far to the right a string is, −1 to 1: the lowest is the leftmost. */
+static double place_of(const GuitarPatch* patch, uint32_t string) {
+  const double last = patch->n_strings - 1.0;
+  const double place = last > 0.0 ? 1.0 - 2.0 * string / last : 0.0;
+  return fmin(fmax(patch->width * place, -1.0), 1.0);
+}
+
+/* As loud in any place. */
+void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_frames) {
+  ramp_to(&mixer->level, (float)patch->string.level, n_frames);
+  for (int p = 0; p < GUITAR_PICKUPS; ++p) {
+    ramp_to(&mixer->gains[p], (float)patch->pickups[p].gain, n_frames);
+  }
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+    const double place = place_of(patch, w % GUITAR_STRINGS);
+    ramp_to(&mixer->pans[w][0], (float)sqrt(1.0 - place), n_frames);
+    ramp_to(&mixer->pans[w][1], (float)sqrt(1.0 + place), n_frames);
+  }
+}
+
+static void ramp_gains(GuitarMixer* mixer, uint32_t n_frames) {
+  for (int p = 0; p < GUITAR_PICKUPS; ++p) {
+    Ramp* const ramp = &mixer->gains[p];
+    mixer->now.is_read[p] = ramp->value != 0.0f || ramp->n_left > 0;
+    ramp_fill(ramp, n_frames, mixer->now.gain[p]);
+  }
+}
+
+static void skip(Ramp* gain, uint32_t n_frames) {
+  for (uint32_t n = 0; n < n_frames && gain->n_left > 0; ++n) {
+    (void)ramp_next(gain);
+  }
+}
+
+static void add(Ramp* gain, const float* from, uint32_t n_frames, float* to) {
+  if (gain->n_left > 0) {
+    for (uint32_t n = 0; n < n_frames; ++n) {
+      to[n] += ramp_next(gain) * from[n];
+    }
+  } else {
+    const float still = gain->value;
+    for (uint32_t n = 0; n < n_frames; ++n) {
+      to[n] += still * from[n];
+    }
+  }
+}
+
+static void run_string(GuitarMixer* mixer,
+                       GuitarString* string,
+                       GuitarString* rest,
+                       Ramp pans[2],
+                       const GuitarPatch* patch,
+                       uint32_t n_frames) {
+  const bool is_heard = string->wire.is_awake || rest->wire.is_awake;
+  if (is_heard) {
+    memset(mixer->own, 0, n_frames * sizeof(float));
+  }
+  guitar_string_run(string, patch, &mixer->now, n_frames, mixer->own);
+  guitar_string_run(rest, patch, &mixer->now, n_frames, mixer->own);
+  for (int side = 0; side < 2; ++side) {
+    if (is_heard) {
+      add(&pans[side], mixer->own, n_frames, mixer->sides[side]);
+    } else {
+      skip(&pans[side], n_frames);
+    }
+  }
+}
+
+/* As many as can be mixed at a time. */
+static void run_some(GuitarMixer* mixer,
+                     GuitarString* strings,
+                     GuitarString* rests,
+                     const GuitarPatch* patch,
+                     uint32_t n_frames,
+                     float* left,
+                     float* right) {
+  memset(mixer->sides[0], 0, n_frames * sizeof(float));
+  memset(mixer->sides[1], 0, n_frames * sizeof(float));
+  ramp_gains(mixer, n_frames);
+  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+    run_string(mixer, &strings[w], &rests[w], mixer->pans[w], patch, n_frames);
+  }
+  ramp_fill(&mixer->level, n_frames, mixer->own);
+  for (uint32_t n = 0; n < n_frames; ++n) {
+    left[n] = mixer->own[n] * mixer->sides[0][n];
+    right[n] = mixer->own[n] * mixer->sides[1][n];
+  }
+}
+
+void guitar_mixer_run(GuitarMixer* mixer,
+                      GuitarString* strings,
+                      GuitarString* rests,
+                      const GuitarPatch* patch,
+                      uint32_t n_frames,
+                      float* left,
+                      float* right) {
+  for (uint32_t done = 0; done < n_frames;) {
+    const uint32_t rest = n_frames - done;
+    const uint32_t n = rest < GUITAR_MIX_FRAMES ? rest : GUITAR_MIX_FRAMES;
+    run_some(mixer, strings, rests, patch, n, left + done, right + done);
+    done += n;
+  }
+}

@@ -1,0 +1,42 @@
+/**
+   The way from the strings of the guitar to its two outputs: gains of the pickups, the place of
+   each string between left and right, and the level, all of them without steps.
+
+   Thread: one at a time; real-time safe.
+*/
+#ifndef HOOKE_CORE_GUITAR_GUITAR_MIXER_H
+#define HOOKE_CORE_GUITAR_GUITAR_MIXER_H
+
+#include "core/base/ramp.h"
+#include "core/guitar/guitar_patch.h"
+#include "core/guitar/guitar_reading.h"
+#include "core/guitar/guitar_string.h"
+
+#include <stdint.h>
+
+enum { GUITAR_WIRES = 2 * GUITAR_STRINGS /**< The strings, and then those beside them */ };
+
+/** Zero is silent. */
+typedef struct {
+  Ramp level;
+  Ramp gains[GUITAR_PICKUPS];
+  Ramp pans[GUITAR_WIRES][2]; /**< Left and right */
+  GuitarGains now;            /**< Of the frames that are run */
+  float own[GUITAR_MIX_FRAMES];
+  float sides[2][GUITAR_MIX_FRAMES];
+} GuitarMixer;
+
+/** Go to what the patch says in `n_frames`. */
+void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_frames);
+
+/** Run all GUITAR_WIRES strings, and what is left of each, for `n_frames`, and write what is heard
+ * to `left` and `right`. */
+void guitar_mixer_run(GuitarMixer* mixer,
+                      GuitarString* strings,
+                      GuitarString* rests,
+                      const GuitarPatch* patch,
+                      uint32_t n_frames,
+                      float* left,
+                      float* right);
+
+#endif

@@ -1,0 +1,120 @@
+/**
+   One string of the guitar: where it is stopped and bent, what touches it, and how it is read.
+
+   Thread: one at a time; real-time safe.
+*/
+#ifndef HOOKE_CORE_GUITAR_GUITAR_STRING_H
+#define HOOKE_CORE_GUITAR_GUITAR_STRING_H
+
+#include "core/base/ramp.h"
+#include "core/guitar/guitar_motion.h"
+#include "core/guitar/guitar_patch.h"
+#include "core/guitar/guitar_reading.h"
+#include "core/voice/wire.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** Damping that a palm of weight w adds is GUITAR_PALM_PER_S w² [1/s], and GUITAR_PALM_LOSS the
+ * share of it that sits between the masses. */
+#define GUITAR_PALM_PER_S 40.0
+#define GUITAR_PALM_LOSS 0.02
+
+/** Fraction of the sounding length, from the bridge, beyond which nothing is plucked or read: the
+ * finger that stops the string is near. */
+#define GUITAR_FARTHEST 0.9
+
+/** What damps a string. */
+typedef enum {
+  GUITAR_RINGING, /**< Nothing but the palm */
+  GUITAR_DAMPED,  /**< A finger: it dies with the patch's release */
+  GUITAR_CHOKED   /**< A hand: it is gone in a moment */
+} GuitarDamper;
+
+/** Zero is one that is asleep and has no memory. */
+typedef struct {
+  Wire wire;
+  GuitarMotion motion; /**< As it will be at the end of its piece, while it is moving */
+  GuitarMotion begun;  /**< As it was at the beginning of it */
+  GuitarReading reading;
+  GuitarDamper damper;
+  double open;            /**< MIDI note of the open string */
+  uint32_t n_gesture;     /**< Frames that a gesture takes */
+  uint32_t n_fade;        /**< Frames that the next fade of the pickups takes */
+  uint32_t n_open;        /**< Masses of the open string that it was strung as */
+  uint32_t n_piece;       /**< Frames of its piece; 0: it is in none */
+  uint32_t n_until_piece; /**< Frames until the next piece of its motion, while it is moving */
+  uint32_t n_damped;      /**< Frames until what damps it lifts; 0: it does not lift by itself */
+  uint32_t n_touched;     /**< Frames until the touch is over */
+  double touched;         /**< Where, as a fraction of its sounding length */
+  Ramp touch;             /**< How far the finger has come */
+  bool is_moving;         /**< Whether its coefficients are on their way, or have just arrived */
+} GuitarString;
+
+/** Lay a string at rest over `memory`, chain_size(GUITAR_MAX_MASSES) bytes. */
+void guitar_string_init(GuitarString* string, double rate_hz, uint32_t phase, void* memory);
+
+/** Silence it at once; open, unbent, untouched. */
+void guitar_string_reset(GuitarString* string);
+
+/** Masses of a string that has `n_open` when it is open and is stopped `frets` ≥ 0 from the nut:
+ * the nearest, M + 1 = round((N + 1) 2^(−frets/12)), at least 1. */
+uint32_t guitar_string_masses(uint32_t n_open, double frets);
+
+/** A place on the open string, as a fraction of what sounds, at most GUITAR_FARTHEST. */
+double guitar_string_place(const GuitarString* string, const GuitarPatch* patch, double place);
+
+/** Bring what rings to the patch in `n_glide` frames, and no faster than by a gesture. */
+void guitar_string_follow(GuitarString* string, const GuitarPatch* patch, uint32_t n_glide);
+
+/** Go to a fret in `n_frames`; a string that is asleep is there at once if that is a gesture. */
+void guitar_string_slide(GuitarString* string,
+                         const GuitarPatch* patch,
+                         double fret,
+                         uint32_t n_frames);
+
+/** Bend in `n_frames`. */
+void guitar_string_bend(GuitarString* string,
+                        const GuitarPatch* patch,
+                        double semitones,
+                        uint32_t n_frames);
+
+/** Swing about the pitch: `depth` [semitones], `rate` [cycles per frame]. */
+void guitar_string_vibrato(GuitarString* string,
+                           const GuitarPatch* patch,
+                           double depth,
+                           double rate);
+
+/**
+   Before it is plucked again: leave its motion to `rest`, where a plectrum that stops a string
+   chokes it, and be at rest, at the fret that it was going to in a gesture.  A string that is
+   asleep stays as it is, and so does one whose last rest has not died away to a hundredth yet.
+
+   @param rest  Of the same kind, used for nothing else
+*/
+void guitar_string_leave(GuitarString* string, GuitarString* rest, const GuitarPatch* patch);
+
+/** Pluck it, whatever damps it; `pluck.place` is a fraction of the sounding length. */
+void guitar_string_pluck(GuitarString* string, const GuitarPatch* patch, Pluck pluck);
+
+/** Let it be damped for `n_frames`; 0: until it is plucked, or damped otherwise.  What is choked
+ * stays so until it is plucked or rings by order. */
+void guitar_string_damp(GuitarString* string,
+                        const GuitarPatch* patch,
+                        GuitarDamper damper,
+                        uint32_t n_frames);
+
+/** Touch it for `n_frames`; `place` is a fraction of the sounding length. */
+void guitar_string_touch(GuitarString* string, double place, uint32_t n_frames);
+
+/** Lift what touches it, in a gesture. */
+void guitar_string_untouch(GuitarString* string);
+
+/** Add `n_frames`, at most GUITAR_MIX_FRAMES, of what the pickups read to `out`. */
+void guitar_string_run(GuitarString* string,
+                       const GuitarPatch* patch,
+                       const GuitarGains* gains,
+                       uint32_t n_frames,
+                       float* out);
+
+#endif

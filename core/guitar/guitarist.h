@@ -1,0 +1,104 @@
+/**
+   Who plays the guitar from MIDI: gives notes to strings, and plays chords, strums, hammer-ons and
+   pull-offs as a guitarist would.
+
+   Modes.  With a channel for each string (channels 1 to 6, 1 being the highest string, as MIDI
+   guitars send) a note goes to the string of its channel.  With one channel for all the guitarist
+   chooses: the hand is at a position that spans five frets, and stays there while it can; open
+   strings are always in reach; no string takes two notes while another could take one; a chord
+   spreads over the strings.  Where every string that could play a note is taken, the one whose note
+   is the oldest is played anew.  A note below the lowest open string is played on the lowest
+   string, tuned down; no note is left out.
+
+   Chords.  Notes of one frame are a chord, and are given strings together when time next goes on:
+   core/guitar/fretboard.h says what a hand prefers.  A key that is still held is played again on
+   its string.  Notes that come frame by frame are decided one by one, and what is played stays
+   where it is.
+
+   Strum.  The strings of a chord are plucked from the lowest to the highest.  A note that comes
+   within 30 ms of its start, while it is under way, is plucked after its last.  A key that goes up
+   before its string is plucked damps it after that.
+
+   Legato.  A soft note on a string that sounds and whose key is down is hammered on; with one
+   channel that is the string that was played last, if the note comes alone, more than 50 ms after
+   that one and within two frets of it.  When its key goes up and that of the note before is still
+   down, the finger pulls off to it, half as strong.
+
+   Thread: guitarist_new() and guitarist_free() anywhere but the audio thread; all else is real-time
+   safe, one thread at a time, that of the guitar.  What is called does not depend on how the frames
+   are cut into calls of guitarist_run().
+*/
+#ifndef HOOKE_CORE_GUITAR_GUITARIST_H
+#define HOOKE_CORE_GUITAR_GUITARIST_H
+
+#include "core/guitar/guitar.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { GUITARIST_CHANNELS = 16, GUITARIST_KEYS = 128 };
+
+/** How it plays. */
+typedef struct {
+  bool has_channels; /**< A channel for each string; false: one for all */
+  double strum_s;    /**< From string to string of a chord struck together [s], 0 to 1 */
+  uint32_t legato;   /**< Hardest velocity that is a hammer-on, 0: none is */
+  uint32_t harmonic; /**< Every pluck is touched at 1/(harmonic + 1) of the string: 0 (not at all)
+                        to 3 */
+} GuitaristHow;
+
+/** Opaque: a guitarist, who has no more than the guitar to sound. */
+typedef struct Guitarist Guitarist;
+
+/**
+   Seat a guitarist at a guitar with six strings in the usual tuning: one channel, no strum, no
+   legato, no harmonics.
+
+   @param guitar  The caller's; must outlive the guitarist
+   @return NULL if there is no memory; else the caller's, to guitarist_free()
+*/
+Guitarist* guitarist_new(Guitar* guitar);
+
+/** Free a guitarist; NULL is ignored. */
+void guitarist_free(Guitarist* guitarist);
+
+/** All notes, pedals and wheels as at the start; the guitar is not touched. */
+void guitarist_reset(Guitarist* guitarist);
+
+/** Take another way of playing; notes that sound go on.  Between the modes wheels go back to their
+    middle. */
+void guitarist_set_how(Guitarist* guitarist, GuitaristHow how);
+
+/** Say which strings there are: the patch that the guitar was given.  What is fretted stays so. */
+void guitarist_set_patch(Guitarist* guitarist, const GuitarPatch* patch);
+
+/* MIDI.  Channels count from 0; one that MIDI does not have, or such a key, is ignored.  With one
+   channel for all, that of a pedal, a wheel or all notes off does not matter. */
+
+/** Key down.  `velocity` 1 to 127; 0 is a key up. */
+void guitarist_note_on(Guitarist* guitarist, uint32_t channel, uint32_t key, uint32_t velocity);
+
+/** Key up: its string is damped, or the finger pulls off, or the pedal holds it. */
+void guitarist_note_off(Guitarist* guitarist, uint32_t channel, uint32_t key);
+
+/** Bend the channel's string, or all. */
+void guitarist_bend(Guitarist* guitarist, uint32_t channel, double semitones);
+
+/** Move the channel's pedal, which with one channel is down while that of any channel is; up, it
+    lets go what it holds. */
+void guitarist_pedal(Guitarist* guitarist, uint32_t channel, bool is_down);
+
+/** Swing the channel's string, or all, by `depth` [semitones] to either side; 0: stop. */
+void guitarist_vibrato(Guitarist* guitarist, uint32_t channel, double depth);
+
+/** All keys of the channel, or all, up. */
+void guitarist_all_notes_off(Guitarist* guitarist, uint32_t channel);
+
+/** All keys and pedals up, nothing due any more, and every string choked. */
+void guitarist_all_sound_off(Guitarist* guitarist);
+
+/** Run the guitar for `n_frames`, write them to `left` and `right`, and pluck what is due on the
+    way; 0: nothing happens, not even the end of the frame. */
+void guitarist_run(Guitarist* guitarist, uint32_t n_frames, float* left, float* right);
+
+#endif

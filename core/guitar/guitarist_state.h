@@ -1,0 +1,58 @@
+/** What a guitarist has in mind: for the rooms of core/guitar/guitarist.h alone. */
+#ifndef HOOKE_CORE_GUITAR_GUITARIST_STATE_H
+#define HOOKE_CORE_GUITAR_GUITARIST_STATE_H
+
+#include "core/guitar/fretboard.h"
+#include "core/guitar/guitarist.h"
+#include "core/guitar/guitarist_string.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum {
+  GUITARIST_EVENTS = 64, /**< Most events gathered in a frame; more are decided in several lots */
+  GUITARIST_NO_STRING = GUITAR_STRINGS
+};
+
+/** The kinds of events that wait for the end of their frame. */
+typedef enum {
+  GUITARIST_NOTE_ON,
+  GUITARIST_NOTE_OFF, /**< Of one key or of all */
+  GUITARIST_PEDAL_MOVE
+} GuitaristVerb;
+
+/** What MIDI said. */
+typedef struct {
+  GuitaristVerb verb;
+  uint32_t channel;
+  uint32_t key;
+  uint32_t value;  /**< Velocity, or whether the pedal is down */
+  uint32_t string; /**< That a note on is played on, once that is decided */
+  uint32_t stroke; /**< How many strings of its strum are plucked before it */
+} GuitaristEvent;
+
+/** The last chord that was struck. */
+typedef struct {
+  uint64_t start;
+  uint32_t n_strokes;
+} GuitaristStrum;
+
+struct Guitarist {
+  Guitar* guitar;
+  double rate_hz;
+  GuitaristHow how;
+  double tuning_hz;
+  double open[GUITAR_STRINGS]; /**< MIDI notes, with the capo */
+  uint32_t n_strings;
+  int32_t position; /**< Fret of the first finger, from the capo */
+  GuitaristString strings[GUITAR_STRINGS];
+  bool is_pedal_down[GUITARIST_CHANNELS];
+  GuitaristStrum strum;
+  uint64_t now;      /**< In frames */
+  uint64_t n_played; /**< Notes so far */
+  GuitaristEvent events[GUITARIST_EVENTS];
+  uint32_t n_events;
+  uint32_t n_notes; /**< Notes on among the events, at most FRETBOARD_NOTES */
+};
+
+#endif

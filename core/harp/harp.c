@@ -1,0 +1,300 @@
+#include "core/harp/harp.h"
+
+#include "core/base/aligned.h"
+#include "core/harp/harp_hands.h"
+#include "core/harp/harp_mixer.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How much harder the hardest velocity plucks than the one where the patch's hardness is what it
+ * says. */
+static const double VELOCITY_HARDNESS = 0.25;
+static const double VELOCITY_NEUTRAL = 0.75;
+
+/* What brightness does to hardness, and the soft pedal to it and to loudness. */
+static const double BRIGHTNESS_HARDNESS = 0.4;
+static const double SOFT_HARDNESS = -0.2;
+static const double SOFT_GAIN = 0.6;
+
+static double clamp(double value, double low, double high) {
+  return fmin(fmax(value, low), high);
+}
+
+/* How far what holds its damper lifts it. */
+static double lift_of(const Harp* harp, const HarpString* string) {
+  return string->is_down || string->is_caught ? 1.0 : harp->hands[string->hand].lift;
+}
+
+static void retune(Harp* harp, HarpString* string, uint32_t n_glide) {
+  string->lift = lift_of(harp, string);
+  harp_string_retune(string, &harp->patch, n_glide);
+}
+
+static void retune_all(Harp* harp, uint32_t n_glide) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    retune(harp, &harp->strings[i], n_glide);
+  }
+}
+
+/* All that has a hand's touch takes it anew. */
+static void feel(Harp* harp, uint32_t hand) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    HarpString* const string = &harp->strings[i];
+    if (harp_hands_follows(string, hand)) {
+      string->touch = harp->hands[hand].touch;
+      retune(harp, string, harp->n_gesture);
+    }
+  }
+}
+
+static void set_touch(Harp* harp, uint32_t hand, double* what, double value) {
+  if (value != *what) {
+    *what = value;
+    feel(harp, hand);
+  }
+}
+
+static void set_level(Harp* harp, uint32_t n_frames) {
+  ramp_to(&harp->level, (float)(harp->swell * harp->patch.level), n_frames);
+}
+
+/* A scale may give any key any pitch, so all strings have the same memory. */
+static void lay_out(Harp* harp, char* memory) {
+  const size_t size = chain_size(CHAIN_MAX_MASSES);
+  memset(memory, 0, HARP_STRINGS * size);
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    harp_string_init(&harp->strings[i], harp->rate_hz, i % HARP_KEYS, memory + i * size,
+                     CHAIN_MAX_MASSES);
+    harp->strings[i].bridge = &harp->bridge.bridge;
+  }
+}
+
+Harp* harp_new(double rate_hz) {
+  Harp* const harp = isfinite(rate_hz) && rate_hz > 0.0 ? calloc(1, sizeof(Harp)) : NULL;
+  if (!harp) {
+    return NULL;
+  }
+  harp->rate_hz = rate_hz;
+  harp->n_gesture = wire_gesture_frames(rate_hz);
+  harp->memory = aligned_new(CHAIN_ALIGNMENT, HARP_STRINGS * chain_size(CHAIN_MAX_MASSES));
+  if (!harp->memory) {
+    harp_free(harp);
+    return NULL;
+  }
+  harp_bridge_init(&harp->bridge, rate_hz);
+  lay_out(harp, harp->memory);
+  harp->swell = 1.0;
+  harp_hands_reset(harp->hands);
+  return harp;
+}
+
+void harp_free(Harp* harp) {
+  if (harp) {
+    aligned_free(harp->memory);
+    free(harp);
+  }
+}
+
+void harp_reset(Harp* harp) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    harp_string_rest(&harp->strings[i]);
+  }
+  harp_hands_reset(harp->hands);
+  harp_bridge_init(&harp->bridge, harp->rate_hz);
+  harp->swell = 1.0;
+  harp->reading.n_taps = 0;
+  harp->is_bowed = false;
+  harp->rest[0] = 0.0;
+  harp->rest[1] = 0.0;
+}
+
+/* Whether what rings has the same coefficients under both. */
+static bool is_same_string(const Patch* a, const Patch* b) {
+  return a->damping_per_s == b->damping_per_s && a->tracking == b->tracking && a->loss == b->loss &&
+         a->inharmonicity == b->inharmonicity && a->release_s == b->release_s &&
+         a->tuning_hz == b->tuning_hz && a->partials == b->partials && a->resonance == b->resonance;
+}
+
+void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_frames) {
+  const bool is_same = is_same_string(patch, &harp->patch);
+  const uint32_t n_glide = n_frames > 0 && n_frames < harp->n_gesture ? harp->n_gesture : n_frames;
+  harp->patch = *patch;
+  harp->n_fade = n_glide;
+  set_level(harp, n_glide);
+  if (n_glide == 0) {
+    harp_pickups_set(&harp->pickups, harp_mixer_places(patch));
+  }
+  if (!is_same) {
+    retune_all(harp, n_glide);
+  }
+}
+
+void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    HarpString* const string = &harp->strings[i];
+    if (semitones[string->key] != string->semitones) {
+      string->semitones = semitones[string->key];
+      retune(harp, string, harp->n_gesture);
+    }
+  }
+}
+
+/* Nothing sounds, and nothing is left of what a bow pulled aside. */
+static bool is_still(const Harp* harp) {
+  return harp->rest[0] == 0.0 && harp->rest[1] == 0.0 && harp_report(harp).n_strings == 0;
+}
+
+/* What a hand makes of a velocity. */
+static Pluck pluck_of(const Harp* harp, const HarpHand* hand, uint32_t velocity) {
+  const double force = velocity / 127.0;
+  const double harder = VELOCITY_HARDNESS * (force - VELOCITY_NEUTRAL) +
+                        BRIGHTNESS_HARDNESS * hand->touch.brightness +
+                        SOFT_HARDNESS * hand->softness;
+  const double softened = 1.0 - (1.0 - SOFT_GAIN) * hand->softness;
+  return (Pluck){
+      .place = harp->patch.pluck,
+      .hardness = clamp(harp->patch.hardness + harder, 0.0, 1.0),
+      .amplitude = HARP_NOTE_PEAK * softened * force * force,
+  };
+}
+
+void harp_note_on(Harp* harp, uint32_t hand, uint32_t key, uint32_t velocity) {
+  assert(hand < HARP_HANDS && key < HARP_KEYS);
+  HarpString* const string = harp_hands_take(harp, hand, key);
+  string->is_caught = string->is_caught && string->hand == hand;
+  string->hand = hand;
+  string->is_down = true;
+  string->is_let_go = false;
+  string->leaned_on = 0.0;
+  string->touch = harp->hands[hand].touch;
+  harp->is_bowed = harp->patch.exciter == EXCITER_BOW || (harp->is_bowed && !is_still(harp));
+  harp_string_play(string, &harp->patch, pluck_of(harp, &harp->hands[hand], velocity),
+                   harp->n_gesture);
+}
+
+static void raise_key(Harp* harp, HarpString* string) {
+  const bool was_leaned_on = string->leaned_on > 0.0;
+  string->is_down = false;
+  string->leaned_on = 0.0;
+  harp_string_lift(string);
+  if (was_leaned_on || string->lift != lift_of(harp, string) || grip_is_on(&string->grip)) {
+    retune(harp, string, harp->n_gesture);
+  }
+}
+
+void harp_note_off(Harp* harp, uint32_t hand, uint32_t key) {
+  assert(hand < HARP_HANDS && key < HARP_KEYS);
+  HarpString* const string = harp_hands_held(harp, hand, key);
+  if (string) {
+    raise_key(harp, string);
+  }
+}
+
+void harp_let_go(Harp* harp, uint32_t hand) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    HarpString* const string = &harp->strings[i];
+    string->is_let_go = string->is_let_go || (string->hand == hand && !string->is_down);
+  }
+}
+
+/* Bring all dampers of a hand to where its pedals let them be. */
+static void move_dampers(Harp* harp, uint32_t hand) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    HarpString* const string = &harp->strings[i];
+    if (string->hand == hand && string->lift != lift_of(harp, string)) {
+      retune(harp, string, harp->n_gesture);
+    }
+  }
+}
+
+void harp_pedal(Harp* harp, uint32_t hand, double lift) {
+  harp->hands[hand].lift = lift;
+  move_dampers(harp, hand);
+}
+
+void harp_sostenuto(Harp* harp, uint32_t hand, bool is_down) {
+  const bool was_down = harp->hands[hand].is_sostenuto;
+  harp->hands[hand].is_sostenuto = is_down;
+  for (uint32_t i = 0; is_down != was_down && i < HARP_STRINGS; ++i) {
+    HarpString* const string = &harp->strings[i];
+    if (string->hand == hand) {
+      string->is_caught = is_down && string->is_down;
+    }
+  }
+  move_dampers(harp, hand);
+}
+
+void harp_soften(Harp* harp, uint32_t hand, double softness) {
+  harp->hands[hand].softness = softness;
+}
+
+void harp_bend(Harp* harp, uint32_t hand, double semitones) {
+  set_touch(harp, hand, &harp->hands[hand].touch.bend, semitones);
+}
+
+void harp_vibrato(Harp* harp, uint32_t hand, double semitones) {
+  set_touch(harp, hand, &harp->hands[hand].touch.vibrato, semitones);
+}
+
+void harp_press(Harp* harp, uint32_t hand, double pressure) {
+  set_touch(harp, hand, &harp->hands[hand].touch.pressure, pressure);
+}
+
+void harp_press_key(Harp* harp, uint32_t hand, uint32_t key, double pressure) {
+  HarpString* const string = harp_hands_held(harp, hand, key);
+  if (string && string->leaned_on != pressure) {
+    string->leaned_on = pressure;
+    retune(harp, string, harp->n_gesture);
+  }
+}
+
+void harp_brighten(Harp* harp, uint32_t hand, double brightness) {
+  set_touch(harp, hand, &harp->hands[hand].touch.brightness, brightness);
+}
+
+void harp_breathe(Harp* harp, uint32_t hand, double breath) {
+  set_touch(harp, hand, &harp->hands[hand].touch.breath, breath);
+}
+
+void harp_swell(Harp* harp, double gain) {
+  harp->swell = gain;
+  set_level(harp, harp->n_gesture);
+}
+
+void harp_all_notes_off(Harp* harp, uint32_t hand) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    if (harp->strings[i].is_down && harp->strings[i].hand == hand) {
+      raise_key(harp, &harp->strings[i]);
+    }
+  }
+}
+
+void harp_all_sound_off(Harp* harp) {
+  for (uint32_t hand = 0; hand < HARP_HANDS; ++hand) {
+    harp->hands[hand].lift = 0.0;
+    harp->hands[hand].is_sostenuto = false;
+  }
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    HarpString* const string = &harp->strings[i];
+    string->is_down = false;
+    string->is_caught = false;
+    string->lift = 0.0;
+    harp_string_choke(string, &harp->patch, harp->n_gesture);
+  }
+}
+
+HarpReport harp_report(const Harp* harp) {
+  HarpReport report = {.headroom = harp_bridge_headroom(harp)};
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    const Wire* const wire = &harp->strings[i].wire;
+    if (wire->is_awake) {
+      ++report.n_strings;
+      report.n_masses += wire->chain.n_masses;
+      report.headroom = fmin(report.headroom, wire->headroom);
+    }
+  }
+  return report;
+}

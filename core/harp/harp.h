@@ -1,0 +1,168 @@
+/**
+   A string for every key of the MIDI range, with its damper, the pedals, and the hands that play.
+
+   Where each note is to have a bend and a touch of its own, each has a hand; else one hand plays
+   all keys.  Two hands that hold the same key have a string each.
+
+   No string is ever stolen.  A string that has died away is at rest in exact zeros and costs
+   nothing.  The samples do not depend on how the frames are cut into calls of harp_run().
+
+   Thread: harp_new() and harp_free() anywhere but the audio thread; all else is real-time safe, one
+   thread at a time.
+*/
+#ifndef HOOKE_CORE_HARP_HARP_H
+#define HOOKE_CORE_HARP_HARP_H
+
+#include "core/base/ramp.h"
+#include "core/harp/harp_bridge.h"
+#include "core/harp/harp_pickups.h"
+#include "core/harp/harp_string.h"
+#include "core/harp/patch.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum {
+  HARP_KEYS = 128,
+  HARP_HANDS = 16,
+  HARP_GUESTS = 32, /**< Strings for keys that more than one hand holds */
+  HARP_STRINGS = HARP_KEYS + HARP_GUESTS,
+  HARP_MIX_FRAMES = 256, /**< Frames that are mixed at a time */
+};
+
+/** Largest displacement of one string plucked with full velocity, at level 1. */
+#define HARP_NOTE_PEAK 0.25
+
+/** A hand that plays, and the pedals under it. */
+typedef struct {
+  HarpTouch touch;
+  double lift;       /**< Of the dampers of keys that are up: 0 to 1 */
+  double softness;   /**< Of the soft pedal, 0 to 1 */
+  bool is_sostenuto; /**< The sostenuto pedal is down */
+} HarpHand;
+
+/** What is sounding. */
+typedef struct {
+  uint32_t n_strings; /**< Strings awake */
+  uint32_t n_masses;  /**< Their masses */
+  double headroom; /**< The smallest of their stability margins, see tuning_headroom(), and of the
+                      bridge's; 1 if none is awake */
+} HarpReport;
+
+/** The harp; use it through the functions below. */
+typedef struct Harp {
+  double rate_hz;
+  uint32_t n_gesture; /**< Frames that a player's gesture takes to act */
+  Patch patch;
+  HarpHand hands[HARP_HANDS];
+  double swell; /**< Gain beside the patch's level */
+  Ramp level;
+  HarpPickups pickups;
+  uint32_t n_fade;                  /**< Frames that the next fade will take */
+  HarpString strings[HARP_STRINGS]; /**< Of every key, and then of guests */
+  void* memory;                     /**< Memory of all strings; owned */
+  HarpString* awake[HARP_STRINGS];  /**< The strings awake, while they are run */
+  ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
+  HarpBridge bridge;
+  bool is_bowed;                /**< Whether a note has been bowed since all was still */
+  double rest[2];               /**< What stands still on each side, once one has */
+  HarpReading reading;          /**< How they were read last */
+  float before[CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is differentiated */
+  float mix[CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
+} Harp;
+
+/**
+   Make a harp at rest.
+
+   @param rate_hz  Frames per second [Hz], > 0
+   @return NULL if there is no memory or the rate is no rate; else the caller's, to harp_free()
+*/
+Harp* harp_new(double rate_hz);
+
+/** Free a harp; NULL is ignored. */
+void harp_free(Harp* harp);
+
+/** Bring all strings to rest at once; keys and pedals up, no hand does anything. */
+void harp_reset(Harp* harp);
+
+/** Take a new patch; what rings gets there in `n_frames`, and no faster than by a gesture (0: at
+   once).  How and where it is plucked, and the most masses, hold from the next pluck on. */
+void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_frames);
+
+/**
+   Tune the keys anew; what rings glides there by a gesture.
+
+   A key then has tuning_hz · 2^((semitones + bend) / 12).  Damping and its tracking stay with the
+   key.  Every string has memory for CHAIN_MAX_MASSES, so that a scale takes none of its masses from
+   it, however low.  A key without a pitch is silent: what rings there is choked.
+
+   @param semitones  Of every key above A4, in any order; NAN: it has no pitch.  `key − 69` is equal
+   temperament, as after harp_new()
+*/
+void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]);
+
+/* What hands do; each is a number less than HARP_HANDS, each key one less than HARP_KEYS.  What it
+   does to what rings takes a gesture, sample by sample. */
+
+/**
+   Key down: play its string.  A key that another hand holds is played on a guest's string, if there
+   is one left; a string whose key is up is taken over.
+
+   @param velocity  1 to 127, loudness as its square; harder plucks are a little brighter
+*/
+void harp_note_on(Harp* harp, uint32_t hand, uint32_t key, uint32_t velocity);
+
+/** Key up: the damper falls, as far as pedals let it. */
+void harp_note_off(Harp* harp, uint32_t hand, uint32_t key);
+
+/** What the hand has played and whose keys are up keeps the touch that it has; only the pedals go
+ * on acting on it. */
+void harp_let_go(Harp* harp, uint32_t hand);
+
+/** Lift the dampers of all keys that are up: 0, they lie on their strings, to 1, they are off.
+ * Between, they take a share of their way on a scale of octaves of τ. */
+void harp_pedal(Harp* harp, uint32_t hand, double lift);
+
+/** Keep the dampers up of those keys that are down now, until it is up again. */
+void harp_sostenuto(Harp* harp, uint32_t hand, bool is_down);
+
+/** The soft pedal, 0 to 1: the next notes are softer and duller. */
+void harp_soften(Harp* harp, uint32_t hand, double softness);
+
+/** Bend; what rings has exact pitch once it is there. */
+void harp_bend(Harp* harp, uint32_t hand, double semitones);
+
+/** Let the pitch swing, to the sharp side by 0 to 1 semitones, at the patch's rate; its mean stays
+ * exact. */
+void harp_vibrato(Harp* harp, uint32_t hand, double semitones);
+
+/** Press on all keys, 0 to 1: bows are drawn up to twice as strong; what is not bowed swings more.
+ */
+void harp_press(Harp* harp, uint32_t hand, double pressure);
+
+/** Press on one key that is down. */
+void harp_press_key(Harp* harp, uint32_t hand, uint32_t key, double pressure);
+
+/** Make it brighter, −1 to 1: less sits between the masses of what rings, and the next notes are
+ * played with something harder.  The fundamental decays as before. */
+void harp_brighten(Harp* harp, uint32_t hand, double brightness);
+
+/** Share of their strength that bows have, 0 to 1. */
+void harp_breathe(Harp* harp, uint32_t hand, double breath);
+
+/** Gain of all strings beside the patch's level, ≥ 0. */
+void harp_swell(Harp* harp, double gain);
+
+/** All keys of a hand up. */
+void harp_all_notes_off(Harp* harp, uint32_t hand);
+
+/** All keys and pedals up, and every string silent in a few hundredths of a second. */
+void harp_all_sound_off(Harp* harp);
+
+/** Run `n_frames` and write them to `left` and `right`. */
+void harp_run(Harp* harp, uint32_t n_frames, float* left, float* right);
+
+/** What is sounding now. */
+HarpReport harp_report(const Harp* harp);
+
+#endif

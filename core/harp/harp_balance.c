@@ -1,0 +1,216 @@
+#include "core/harp/harp_balance.h"
+
+#include "core/excite/spectrum.h"
+#include "core/harp/harp_pickups.h"
+#include "core/string/pickup.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Power, of the amplitude's square: that of the patch as the panel has it at first, key 60. */
+static const double POWER = 0.5;
+
+/* The time that is listened to [s], and the key whose decay all are measured by. */
+static const double WINDOW_S = 0.4;
+static const double MIDDLE_KEY = 60.0;
+
+/* Most that a decay is made up for, in power. */
+static const double MOST_DECAY = 10.0;
+
+/* Largest amplitude of each side, of the string's: what is too low to be heard, or is gone at once,
+ * may not drive a limiter. */
+static const double LARGEST = 2.0;
+
+/* What a strike is thought to be made stronger by: how bright it is depends on that, a little. */
+static const double USUAL_STRIKE = 0.8;
+
+/* A mode's a that is not below 4 is not stable, and not heard. */
+static const double LARGEST_A = 3.999;
+
+/* Modes that are taken one by one; the rest in runs of a quarter of their number, each for a mode
+ * of it that no comb can fall into step with. */
+enum { ONE_BY_ONE = 32, RUN = 4 };
+static const double GOLDEN = 0.61803398874989485;
+
+/* What turns by an angle from mode to mode: the string's shape, the exciter's two cosines, and the
+ * sines at the masses that are read. */
+enum { STRING, EXCITED, TAPPED = 3, MOST_TURNS = TAPPED + 4 };
+
+typedef struct {
+  double angle[MOST_TURNS];
+  double now[MOST_TURNS];
+  double before[MOST_TURNS];
+  double twice[MOST_TURNS]; /* Cosine of the angle */
+} Turns;
+
+typedef struct {
+  StringCoefs coefs;
+  Spectrum spectrum;
+  Sense sense;
+  uint32_t n_sides;
+  double weights[4];
+  double rate_hz;
+  double both; /* 2 where one pickup is both sides */
+} Scene;
+
+/* Sums over the modes, as they begin and over the whole time. */
+typedef struct {
+  double begun;
+  double whole;
+  double plain; /* As it begins, not weighed */
+} Power;
+
+/* Gain squared of the filters of BS.1770 at a frequency squared, as they are before they are made
+ * for a rate: what the head does to the sound, and what is not heard below. */
+static double k_weight(double square) {
+  static const double HEAD = 1681.974450955533 * 1681.974450955533;
+  static const double HEAD_Q = 0.7071752369554196 * 0.7071752369554196;
+  static const double HIGH = 1.584864701130855;
+  static const double BAND = 1.258720930232562;
+  static const double LOW = 38.13547087602444 * 38.13547087602444;
+  static const double LOW_Q = 0.5003270373238773 * 0.5003270373238773;
+  const double high = HEAD - HIGH * square;
+  const double head = HEAD - square;
+  const double low = LOW - square;
+  const double over = high * high + BAND * BAND * HEAD / HEAD_Q * square;
+  const double under = head * head + HEAD / HEAD_Q * square;
+  return over * square * square / (under * (low * low + LOW / LOW_Q * square));
+}
+
+/* Mean of e^(−2yt) for t from 0 to 1, within 0.2 dB. */
+static double kept(double y) {
+  return 1.0 / (y + sqrt(1.0 + y * y));
+}
+
+/* ω² = 4 asin²(√a/2), well enough for an ear. */
+static double square_of_angle(double a) {
+  const double q = 0.25 * a;
+  return a * (1.0 + q * (1.0 / 3.0 + q * (8.0 / 45.0)));
+}
+
+static double square_read(const Scene* scene, const double* sines, double a) {
+  double square = 0.0;
+  for (uint32_t side = 0; side < scene->n_sides; ++side) {
+    const double* const w = &scene->weights[2 * side];
+    const double read = w[0] * sines[2 * side] + w[1] * sines[2 * side + 1];
+    square += read * read;
+  }
+  return scene->both * square * (scene->sense == SENSE_VELOCITY ? a : 1.0);
+}
+
+/* Add `n` modes that are all as `k` is. */
+static void add(Power* power, const Scene* scene, uint32_t k, const double* turned, double n) {
+  const StringCoefs* const c = &scene->coefs;
+  const double lambda = 2.0 - 2.0 * turned[STRING];
+  const Pole mode = {fmin(LARGEST_A, (c->k1 + (c->k2 + c->k3 * lambda) * lambda) * lambda),
+                     c->z0 + c->z1 * lambda};
+  const double hz = scene->rate_hz / (2.0 * PI);
+  const double plain = 0.5 * n * spectrum_square(&scene->spectrum, k, mode, &turned[EXCITED]) *
+                       square_read(scene, &turned[TAPPED], mode.a);
+  const double heard = plain * k_weight(hz * hz * square_of_angle(mode.a));
+  power->plain += plain;
+  power->begun += heard;
+  power->whole += heard * kept(0.5 * mode.g * WINDOW_S * scene->rate_hz);
+}
+
+static void turn_to(Turns* turns, double k) {
+  for (int i = 0; i < MOST_TURNS; ++i) {
+    turns->now[i] = i < TAPPED ? cos(k * turns->angle[i]) : sin(k * turns->angle[i]);
+  }
+}
+
+static void start(Turns* turns) {
+  turn_to(turns, 1.0);
+  for (int i = 0; i < MOST_TURNS; ++i) {
+    turns->before[i] = i < TAPPED ? 1.0 : 0.0;
+    turns->twice[i] = 2.0 * (i < TAPPED ? turns->now[i] : cos(turns->angle[i]));
+  }
+}
+
+static void turn(Turns* turns) {
+  for (int i = 0; i < MOST_TURNS; ++i) {
+    const double next = turns->twice[i] * turns->now[i] - turns->before[i];
+    turns->before[i] = turns->now[i];
+    turns->now[i] = next;
+  }
+}
+
+static Power sum(const Scene* scene, Turns* turns, uint32_t n_masses) {
+  Power power = {0};
+  double way = 0.5;
+  uint32_t k = 1;
+  start(turns);
+  for (; k <= n_masses && k <= ONE_BY_ONE; ++k) {
+    add(&power, scene, k, turns->now, 1.0);
+    turn(turns);
+  }
+  while (k <= n_masses) {
+    const uint32_t n_left = n_masses + 1 - k;
+    const uint32_t n = k / RUN < n_left ? k / RUN : n_left;
+    way = fmod(way + GOLDEN, 1.0);
+    const uint32_t at = k + (uint32_t)(way * n);
+    turn_to(turns, at);
+    add(&power, scene, at, turns->now, n);
+    k += n;
+  }
+  return power;
+}
+
+static Spectrum spectrum_for(const Patch* patch, const HarpBalance* string, Pluck pluck) {
+  const double hz = string->target.tone.f0_hz;
+  const double angle1 = 2.0 * PI * hz / string->target.rate_hz;
+  switch (patch->exciter) {
+  case EXCITER_STRIKE: {
+    const Strike strike = {pluck.place, pluck.hardness, string->hammer_mass,
+                           USUAL_STRIKE * pluck.amplitude};
+    return spectrum_of_strike(string->n_masses, strike, angle1);
+  }
+  case EXCITER_BOW:
+    return spectrum_of_bow(pluck.place, angle1, hz);
+  case EXCITER_PLUCK:
+    break;
+  }
+  return spectrum_of_pluck(string->n_masses, pluck, angle1);
+}
+
+/* Where the harp's pickups are, or will be. */
+static void set_taps(Scene* scene, Turns* turns, const Patch* patch, const HarpBalance* string) {
+  const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
+  HarpPickups pickups = {0};
+  harp_pickups_set(&pickups, (HarpPlaces){patch->sense, patch->pickup, patch->spread});
+  const HarpReading reading = harp_pickups_reading(&pickups);
+  scene->n_sides = reading.n_sides;
+  scene->both = reading.n_sides == 1 ? 2.0 : 1.0;
+  for (uint32_t side = 0; side < reading.n_sides; ++side) {
+    const HarpEar* const ear = &reading.ears[side];
+    const ChainTap tap = pickup_tap_sensing(ear->sense, string->n_masses, ear->place,
+                                            2.0 * PI * f0_hz / string->target.rate_hz, ear->is_far);
+    for (uint32_t i = 2 * side; i < 2 * side + 2; ++i) {
+      turns->angle[TAPPED + i] = turns->angle[STRING] * (tap.mass[i % 2] + 1.0);
+      scene->weights[i] = (double)tap.weight[i % 2];
+    }
+  }
+}
+
+double harp_balance_gain(const Patch* patch, const HarpBalance* string, Pluck pluck) {
+  Scene scene = {.sense = patch->sense, .rate_hz = string->target.rate_hz};
+  Turns turns = {.angle = {PI / (string->n_masses + 1.0)}};
+  if (tuning_solve(&string->target, string->n_masses, &scene.coefs)) {
+    return 1.0;
+  }
+  scene.spectrum = spectrum_for(patch, string, pluck);
+  turns.angle[EXCITED] = scene.spectrum.angles[0];
+  turns.angle[EXCITED + 1] = scene.spectrum.angles[1];
+  set_taps(&scene, &turns, patch, string);
+  const Power power = sum(&scene, &turns, string->n_masses);
+  const double damping = patch->damping_per_s * exp2(patch->tracking * (MIDDLE_KEY - 69.0) / 12.0);
+  const double usual = kept(WINDOW_S * damping);
+  const double share =
+      patch->exciter == EXCITER_BOW
+          ? 1.0
+          : fmin(fmax(power.whole / power.begun, usual / MOST_DECAY), usual * MOST_DECAY);
+  const double gain = sqrt(POWER * usual / (power.begun * share));
+  const double most = fmin(HARP_BALANCE_MOST, LARGEST / sqrt(2.0 * power.plain));
+  return gain < most ? fmax(gain, 1.0 / HARP_BALANCE_MOST) : fmax(most, 1.0 / HARP_BALANCE_MOST);
+}

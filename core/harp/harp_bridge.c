@@ -1,0 +1,280 @@
+#include "core/harp/harp_bridge.h"
+
+#include "core/harp/harp.h"
+#include "core/string/chain_numbers.h"
+
+#include <math.h>
+
+/* Motion of the bridge from which on strings wake: some 60 dB less than what moves it. */
+static const double WAKING = 1e-9;
+
+/* Motion of the bridge, over the loudest string's, up to which they may sleep: what a string moves
+ * it by that has died away to -120 dB. */
+static const double RESTING = 1e-10;
+
+/* What is left of its level at the next place of the grid. */
+static const double LEVEL_KEPT = 0.97;
+
+/* How far a damper must be lifted for its string to wake. */
+static const double LIFTED = 0.5;
+
+static uint32_t least(uint32_t a, uint32_t b) {
+  return a < b ? a : b;
+}
+
+void harp_bridge_init(HarpBridge* bridge, double rate_hz) {
+  *bridge = (HarpBridge){.bridge = bridge_at(rate_hz), .n_until_look = HARP_BRIDGE_FRAMES};
+}
+
+/* Nothing moves it any more. */
+static void rest(HarpBridge* bridge) {
+  bridge->bridge.y = 0.0;
+  bridge->bridge.w = 0.0;
+  bridge->loudest = 0.0;
+  bridge->level = 0.0;
+  bridge->n_until_look = HARP_BRIDGE_FRAMES;
+  bridge->next_key = 0;
+}
+
+static void read_tie(HarpBridgeEnd* end, const BridgeTie* tie) {
+  end->give = tie->weight * tie->pull;
+  end->pull = tie->pull;
+  end->spring = tie->spring;
+}
+
+static HarpBridgeEnd end_of(const Chain* chain, const Grip* grip) {
+  const size_t offset = chain_numbers_offset(chain, chain->n_masses - 1);
+  const bool is_double = chain->numbers == CHAIN_DOUBLE;
+  HarpBridgeEnd end = {
+      .f = is_double ? NULL : (float*)chain->cells + offset,
+      .d = is_double ? (double*)chain->cells + offset : NULL,
+      .to_u = chain->loops->n_lanes,
+  };
+  read_tie(&end, &grip->now);
+  return end;
+}
+
+/* Strings that follow each other and need the same loop are stepped by one call. */
+static void add_work(HarpBridge* bridge, uint32_t i, const ChainPart* part, uint32_t n_taps) {
+  const ChainLoop loop = chain_loop(part->chain, n_taps);
+  HarpBridgeBatch* const last = i > 0 ? &bridge->batches[bridge->n_batches - 1] : NULL;
+  bridge->works[i] = chain_work(part, n_taps);
+  if (last && last->loop == loop && last->n < CHAIN_MAX_BATCH) {
+    ++last->n;
+  } else {
+    bridge->batches[bridge->n_batches++] = (HarpBridgeBatch){loop, i, 1};
+  }
+}
+
+static void prepare(Harp* harp, uint32_t n_taps) {
+  HarpBridge* const bridge = &harp->bridge;
+  bridge->n_batches = 0;
+  bridge->is_gliding = false;
+  bridge->spring = 0.0;
+  for (uint32_t i = 0; i < bridge->n_tied; ++i) {
+    const Grip* const grip = &harp->awake[i]->grip;
+    add_work(bridge, i, &harp->parts[i], n_taps);
+    bridge->ends[i] = end_of(harp->parts[i].chain, grip);
+    bridge->is_gliding = bridge->is_gliding || grip->n_gliding > 0;
+    bridge->spring += grip->now.spring;
+  }
+}
+
+static void glide(Harp* harp) {
+  HarpBridge* const bridge = &harp->bridge;
+  bridge->spring = 0.0;
+  for (uint32_t i = 0; i < bridge->n_tied; ++i) {
+    Grip* const grip = &harp->awake[i]->grip;
+    grip_advance(grip);
+    read_tie(&bridge->ends[i], &grip->now);
+    bridge->spring += grip->now.spring;
+  }
+}
+
+/* How the strings pull at the bridge where they are. */
+static double force_of(const HarpBridge* bridge) {
+  double force = 0.0;
+  for (uint32_t i = 0; i < bridge->n_tied; ++i) {
+    const HarpBridgeEnd* const end = &bridge->ends[i];
+    force += end->give * (end->d ? *end->d : (double)*end->f);
+  }
+  return force;
+}
+
+/* And it at them. */
+static void pull(HarpBridge* bridge) {
+  const double y = bridge->bridge.y;
+  for (uint32_t i = 0; i < bridge->n_tied; ++i) {
+    const HarpBridgeEnd* const end = &bridge->ends[i];
+    const double change = end->pull * y;
+    if (end->d) {
+      end->d[0] += change;
+      end->d[end->to_u] += change;
+    } else {
+      end->f[0] = (float)((double)end->f[0] + change);
+      end->f[end->to_u] = (float)((double)end->f[end->to_u] + change);
+    }
+  }
+}
+
+/* Hammers and bows, and who listens to them, which may set the string gliding; true if something is
+ * over, or begins. */
+static bool act(Harp* harp) {
+  bool is_new = false;
+  for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
+    if (harp_string_is_touched(harp->awake[i])) {
+      chain_pass(harp->parts[i].chain, 1);
+      is_new = harp_string_act(harp->awake[i]) || is_new;
+    }
+  }
+  return is_new;
+}
+
+static void run_frame(Harp* harp, float* const* out) {
+  HarpBridge* const bridge = &harp->bridge;
+  if (bridge->is_gliding) {
+    glide(harp);
+  }
+  const double force = force_of(bridge);
+  for (uint32_t b = 0; b < bridge->n_batches; ++b) {
+    const HarpBridgeBatch* const batch = &bridge->batches[b];
+    batch->loop(&bridge->works[batch->first], batch->n, 1, out);
+  }
+  pull(bridge);
+  bridge_step(&bridge->bridge, force, bridge->spring);
+  bridge->level = fmax(bridge->level, fabs(bridge->bridge.y));
+}
+
+static void pass_strings(Harp* harp, uint32_t n_frames) {
+  for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
+    if (!harp->awake[i]->has_acted) {
+      chain_pass(harp->parts[i].chain, n_frames);
+    }
+    harp_string_pass(harp->awake[i], &harp->patch, n_frames);
+  }
+}
+
+void harp_bridge_gather(Harp* harp, uint32_t n_tied) {
+  if (n_tied == 0 && harp->bridge.n_tied > 0) {
+    rest(&harp->bridge);
+  }
+  harp->bridge.n_tied = n_tied;
+}
+
+uint32_t harp_bridge_stretch(const Harp* harp, uint32_t n_frames) {
+  const HarpBridge* const bridge = &harp->bridge;
+  if (bridge->n_tied > 0) {
+    n_frames = least(n_frames, bridge->n_until_look);
+  }
+  for (uint32_t i = 0; i < bridge->n_tied; ++i) {
+    const HarpString* const string = harp->awake[i];
+    const uint32_t n_gliding = string->grip.n_gliding;
+    n_frames = least(n_frames, harp_string_stretch(string));
+    n_frames = n_gliding > 0 ? least(n_frames, n_gliding) : n_frames;
+  }
+  return n_frames;
+}
+
+uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps, float* const* out) {
+  const HarpBridge* const bridge = &harp->bridge;
+  if (bridge->n_tied == 0) {
+    return n_frames;
+  }
+  bool is_touched = false;
+  for (uint32_t i = 0; i < bridge->n_tied; ++i) {
+    is_touched = is_touched || harp_string_is_touched(harp->awake[i]);
+  }
+  prepare(harp, n_taps);
+  uint32_t n = 0;
+  for (bool is_over = false; n < n_frames && !is_over; ++n) {
+    float* at[CHAIN_MAX_TAPS];
+    for (uint32_t t = 0; t < n_taps; ++t) {
+      at[t] = out[t] + n;
+    }
+    run_frame(harp, at);
+    is_over = is_touched && act(harp);
+  }
+  pass_strings(harp, n);
+  return n;
+}
+
+/* What others may have given a string: all of the motion there is, by their masses. */
+static void lend(Harp* harp) {
+  double sum = 0.0;
+  for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
+    const double given = harp->awake[i]->wire.given;
+    sum += harp->awake[i]->grip.hold.mass * given * given;
+  }
+  for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
+    Wire* const wire = &harp->awake[i]->wire;
+    const double mass = harp->awake[i]->grip.hold.mass;
+    if (mass > 0.0) {
+      wire->lent = fmax(wire->lent, sqrt(sum / mass));
+    }
+  }
+}
+
+/* No string sleeps that the bridge moves, or that is yet to answer. */
+static void keep(Harp* harp) {
+  HarpBridge* const bridge = &harp->bridge;
+  for (uint32_t i = 0; i < bridge->n_tied; ++i) {
+    bridge->loudest = fmax(bridge->loudest, harp->awake[i]->wire.loudest);
+  }
+  for (uint32_t i = 0; i < bridge->n_tied; ++i) {
+    Wire* const wire = &harp->awake[i]->wire;
+    const bool is_open = harp->awake[i]->grip.hold.lever > 0.0;
+    wire->loudest = fmax(wire->loudest, bridge->loudest);
+    wire->is_kept = is_open && bridge->level > RESTING * bridge->loudest;
+  }
+}
+
+static bool is_waiting(const HarpString* string) {
+  return !string->wire.is_awake && string->lift >= LIFTED && !isnan(string->semitones);
+}
+
+static void wake(Harp* harp) {
+  HarpBridge* const bridge = &harp->bridge;
+  uint32_t n_woken = 0;
+  for (uint32_t key = HARP_BRIDGE_LOWEST; key <= HARP_BRIDGE_HIGHEST; ++key) {
+    enum { N_KEYS = HARP_BRIDGE_HIGHEST + 1 - HARP_BRIDGE_LOWEST };
+    HarpString* const string = &harp->strings[HARP_BRIDGE_LOWEST + bridge->next_key];
+    if (n_woken == HARP_BRIDGE_WAKES) {
+      return;
+    }
+    bridge->next_key = (bridge->next_key + 1) % N_KEYS;
+    if (is_waiting(string)) {
+      harp_string_wake(string, &harp->patch, harp->n_gesture);
+      ++n_woken;
+    }
+  }
+}
+
+void harp_bridge_pass(Harp* harp, uint32_t n_frames) {
+  HarpBridge* const bridge = &harp->bridge;
+  if (bridge->n_tied == 0) {
+    return;
+  }
+  bridge->n_until_look -= n_frames;
+  if (bridge->n_until_look == 0) {
+    bridge->n_until_look = HARP_BRIDGE_FRAMES;
+    lend(harp);
+    keep(harp);
+    if (bridge->level > WAKING && harp->patch.resonance > 0.0) {
+      wake(harp);
+    }
+    bridge->level *= LEVEL_KEPT;
+  }
+}
+
+double harp_bridge_headroom(const Harp* harp) {
+  double load = 0.0;
+  bool is_tied = false;
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    const HarpString* const string = &harp->strings[i];
+    if (string->wire.is_awake && grip_is_on(&string->grip)) {
+      load += fmax(string->grip.now.load, string->grip.goal.load);
+      is_tied = true;
+    }
+  }
+  return is_tied ? bridge_headroom(&harp->bridge.bridge, load) : 1.0;
+}

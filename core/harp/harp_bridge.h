@@ -1,0 +1,83 @@
+/**
+   The strings of the harp that are tied to its bridge (core/voice/bridge.h): they are stepped side
+   by side, frame by frame, and those that sleep with nothing on them wake when the bridge moves.
+
+   A string is tied while it is played or its damper is lifted and the patch has resonance; one
+   whose damper has fallen is let go, and is stepped as if there were no bridge.  Where none is
+   tied, nothing of this is computed.  All that happens here in the harp's own time happens on a
+   grid of HARP_BRIDGE_FRAMES from the moment on at which the first string was tied.
+
+   Thread: one at a time; real-time safe.
+*/
+#ifndef HOOKE_CORE_HARP_HARP_BRIDGE_H
+#define HOOKE_CORE_HARP_HARP_BRIDGE_H
+
+#include "core/string/chain.h"
+#include "core/voice/bridge.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum {
+  HARP_BRIDGE_FRAMES = 64,
+  HARP_BRIDGE_STRINGS = 160,
+  HARP_BRIDGE_WAKES = 2, /**< Strings that wake at a time */
+  HARP_BRIDGE_LOWEST = 21,
+  HARP_BRIDGE_HIGHEST = 108 /**< Keys whose strings wake */
+};
+
+typedef struct Harp Harp;
+
+/** Strings that are stepped by one call. */
+typedef struct {
+  ChainLoop loop;
+  uint32_t first;
+  uint32_t n;
+} HarpBridgeBatch;
+
+/** Where the last mass of a string is, and what the tie makes of it. */
+typedef struct {
+  float* f;      /**< Its position, where it is in floats */
+  double* d;     /**< Where it is in doubles */
+  size_t to_u;   /**< From there to its velocity */
+  double give;   /**< r p */
+  double pull;   /**< p */
+  double spring; /**< s */
+} HarpBridgeEnd;
+
+/** Zero moves nothing. */
+typedef struct {
+  Bridge bridge;
+  uint32_t n_tied;       /**< Strings that are tied: the first of those that are run */
+  uint32_t n_until_look; /**< Frames until the next place of the grid */
+  uint32_t next_key;     /**< Which is asked next whether it is to wake */
+  double loudest;        /**< Of the strings that are tied, since there are any */
+  double level;          /**< How far the bridge moves of late */
+  bool is_gliding;       /**< Whether a tie is */
+  double spring;         /**< Σ s while none is */
+  uint32_t n_batches;
+  HarpBridgeBatch batches[HARP_BRIDGE_STRINGS];
+  ChainWork works[HARP_BRIDGE_STRINGS];
+  HarpBridgeEnd ends[HARP_BRIDGE_STRINGS];
+} HarpBridge;
+
+/** A bridge at rest. */
+void harp_bridge_init(HarpBridge* bridge, double rate_hz);
+
+/** The first `n_tied` strings that are run are tied. */
+void harp_bridge_gather(Harp* harp, uint32_t n_tied);
+
+/** Frames, at most `n_frames`, after which harp_bridge_pass() is to be told. */
+uint32_t harp_bridge_stretch(const Harp* harp, uint32_t n_frames);
+
+/** Run the strings that are tied at most `n_frames`, and tell them; how many they were, which is
+ * less where a hammer or a bow has left a string, or is followed by ear. */
+uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps, float* const* out);
+
+/** After those frames: on the grid, see who is to wake, and who may sleep. */
+void harp_bridge_pass(Harp* harp, uint32_t n_frames);
+
+/** See bridge_headroom(); 1 where no string is tied. */
+double harp_bridge_headroom(const Harp* harp);
+
+#endif

@@ -1,0 +1,110 @@
+/**
+   One string of the harp: the key it belongs to, its damper, what it is played with, and what the
+   hand that played it does to it since.
+
+   Thread: one at a time; real-time safe.
+*/
+#ifndef HOOKE_CORE_HARP_HARP_STRING_H
+#define HOOKE_CORE_HARP_HARP_STRING_H
+
+#include "core/excite/bow.h"
+#include "core/excite/hammer.h"
+#include "core/harp/patch.h"
+#include "core/voice/grip.h"
+#include "core/voice/intonation.h"
+#include "core/voice/vibrato.h"
+#include "core/voice/wire.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/** What a hand does to a string that it has played. */
+typedef struct {
+  double bend;       /**< [semitones] */
+  double vibrato;    /**< To the sharp side [semitones], 0 to 1 */
+  double brightness; /**< −1, dark, to 1, bright; 0: as the patch has it */
+  double pressure;   /**< 0 to 1: leans on the bow, or else adds to the vibrato */
+  double breath;     /**< Share of the bow's strength, 0 to 1 */
+} HarpTouch;
+
+/** A hand that does nothing. */
+#define HARP_TOUCH_NONE ((HarpTouch){.breath = 1.0})
+
+/** Zero is a string that is asleep and has no memory. */
+typedef struct {
+  Wire wire;
+  uint32_t key;      /**< MIDI note number */
+  double semitones;  /**< Its pitch above A4 [semitones]; NAN: it has none, and is silent */
+  uint32_t n_strung; /**< Masses that it was strung with; a bend may have left it fewer */
+  double lift;       /**< Of its damper: 0, it lies on the string, to 1, it does not touch it */
+  HarpTouch touch;   /**< Set it before harp_string_play() or harp_string_retune() */
+  Vibrato vibrato;
+  uint32_t n_swing;     /**< Frames until the vibrato's next piece */
+  Hammer hammer;        /**< What strikes it now */
+  Bow bow;              /**< What is drawn across it now */
+  Intonation ear;       /**< What listens while it is bowed */
+  bool has_acted;       /**< One of them has, since harp_string_pass() was told */
+  const Bridge* bridge; /**< What the patch's resonance ties it to; NULL: nothing */
+  Grip grip;            /**< How */
+
+  /* Who plays it; the harp's */
+  uint32_t hand;    /**< The hand that played it last */
+  bool is_down;     /**< Its key is down */
+  bool is_caught;   /**< Its damper is held up by the sostenuto pedal */
+  bool is_let_go;   /**< It follows the hand no more */
+  double leaned_on; /**< Pressure of its key alone, 0 to 1 */
+} HarpString;
+
+/** The pitch of a string [Hz], bent as its hand bends it but for the vibrato. */
+double harp_string_pitch_hz(const HarpString* string, const Patch* patch);
+
+/** Lay a string at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT; it
+ * has the pitch of its key in equal temperament, and never more masses than `capacity`. */
+void harp_string_init(
+    HarpString* string, double rate_hz, uint32_t key, void* memory, uint32_t capacity);
+
+/** Silence it at once, with nothing at it and nobody playing it. */
+void harp_string_rest(HarpString* string);
+
+/**
+   Play a string with the patch's exciter.  From rest it is strung anew, with the largest stable
+   number of masses up to the patch's; while it rings the motion adds to its own, its damper lifts,
+   the coefficients take `n_glide` frames, and if a bend has left it few of its masses it has them
+   again.  A string whose pitch is at or above Nyquist stays silent.
+
+   @param pluck  As loud as a strike or a bow is to be; its hardness is the hammer's, or the bow's
+   pressure
+*/
+void harp_string_play(HarpString* string, const Patch* patch, Pluck pluck, uint32_t n_glide);
+
+/** Lift the bow, if there is one. */
+void harp_string_lift(HarpString* string);
+
+/**
+   Bring a ringing string to the patch, its touch and its damper's `lift` in `n_glide` frames, see
+   wire_retune().  One that is choked, or asleep, is left alone; a pitch that cannot be had at all
+   chokes it.
+*/
+void harp_string_retune(HarpString* string, const Patch* patch, uint32_t n_glide);
+
+/** Lay a hand on it: it is gone in a moment. */
+void harp_string_choke(HarpString* string, const Patch* patch, uint32_t n_glide);
+
+/** Wake it, at rest, for the bridge to move; it is tied in `n_glide` frames.  False if it cannot
+ * sound. */
+bool harp_string_wake(HarpString* string, const Patch* patch, uint32_t n_glide);
+
+/** Whether a hammer or a bow is at it, which asks for harp_string_act() after every frame. */
+bool harp_string_is_touched(const HarpString* string);
+
+/** Let the hammer, the bow and the ear act; true if they have just left, or moved the string's
+ * coefficients, and harp_string_pass() is to be told. */
+bool harp_string_act(HarpString* string);
+
+/** Frames that it can be run before harp_string_pass() must be told. */
+uint32_t harp_string_stretch(const HarpString* string);
+
+/** After `n_frames`, at most its stretch: let the vibrato act, and see wire_pass(). */
+void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames);
+
+#endif

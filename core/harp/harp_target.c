@@ -1,0 +1,43 @@
+#include "core/harp/harp_target.h"
+
+#include <math.h>
+
+/* How the hand's brightness moves the loss between the masses: towards a tenth of it, or up, on a
+ * scale of octaves, to its fourth root. */
+static const double BRIGHTEST_LOSS = 0.1;
+static const double DARKEST_LOSS = 0.75;
+static const double LEAST_DARK_LOSS = 1e-5;
+
+/* What is between the masses when the hand makes the string brighter, or darker. */
+static double loss_of(const HarpString* string, const Patch* patch) {
+  const double brightness = string->touch.brightness;
+  if (brightness >= 0.0) {
+    return patch->loss * pow(BRIGHTEST_LOSS, brightness);
+  }
+  return pow(fmax(patch->loss, LEAST_DARK_LOSS), 1.0 + DARKEST_LOSS * brightness);
+}
+
+TuningTarget harp_target(const HarpString* string, const Patch* patch, double f0_hz) {
+  const double octaves = ((double)string->key - 69.0) / 12.0;
+  const double open_s = 1.0 / (patch->damping_per_s * exp2(patch->tracking * octaves));
+  const TuningTarget open = {
+      .rate_hz = string->wire.rate_hz,
+      .tone = {.f0_hz = f0_hz, .tau_s = open_s},
+      .loss = loss_of(string, patch),
+      .inharmonicity = patch->inharmonicity,
+      .partials = patch->partials,
+  };
+  if (string->wire.is_choked) {
+    return tuning_damped(open, fmin(open_s, WIRE_CHOKE_S), 0.0);
+  }
+  const double shut_s = fmin(open_s, patch->release_s);
+  const double tau_s = shut_s * pow(open_s / shut_s, string->lift);
+  return string->lift < 1.0 ? tuning_damped(open, fmin(open_s, tau_s), 0.0) : open;
+}
+
+BridgeHold harp_target_hold(const HarpString* string, const Patch* patch) {
+  const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
+  const bool is_tied = string->bridge && !string->wire.is_choked && patch->resonance > 0.0;
+  return (BridgeHold){is_tied ? bridge_mass(f0_hz) : 0.0,
+                      is_tied ? patch->resonance * patch->resonance * string->lift : 0.0};
+}

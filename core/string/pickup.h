@@ -1,0 +1,37 @@
+/**
+   Where a string is read.
+
+   Thread: any; real-time safe.
+*/
+#ifndef HOOKE_CORE_STRING_PICKUP_H
+#define HOOKE_CORE_STRING_PICKUP_H
+
+#include "core/harp/patch.h"
+#include "core/string/chain.h"
+
+/**
+   The tap that reads a string at `place`, in a straight line between the two masses beside it; the
+   walls read 0.
+
+   @param n_masses  N ≥ 1; mass i (from 1) is at place i/(N + 1)
+   @param place     Fraction of the length, 0 to 1
+*/
+ChainTap pickup_tap(uint32_t n_masses, double place);
+
+/**
+   The tap for a sense.  That of velocity reads x/(2 sin(ω/2)), which is to be differentiated, a
+   sample less the one before, and that of force reads (N + 1)/π times the mass at one end: so the
+   fundamental would be as large as in the displacement.  Both are weakened by as much as their
+   upper partials make them louder.
+
+   @param angle1  ω, the fundamental's digital angular frequency [rad per sample], > 0
+   @param is_far  SENSE_FORCE: read the end at place 1 instead
+*/
+ChainTap
+pickup_tap_sensing(Sense sense, uint32_t n_masses, double place, double angle1, bool is_far);
+
+/** Differentiate what a tap for SENSE_VELOCITY has read.  @param before  The sample before the
+ * first; then the last. */
+void pickup_differentiate(float* samples, uint32_t n_frames, float* before);
+
+#endif

@@ -1,0 +1,148 @@
+#include "core/voice/intonation.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* The shortest sum [s], and the fewest frames: a string must have the time to follow. */
+static const double LEAST_S = 0.004;
+static const double LEAST_FRAMES = 192.0;
+
+/* What is made good of an error at the end of each sum, and the most [cents]. */
+static const double SHARE = 0.4;
+static const double MOST_CHANGE = 15.0;
+
+/* Change of what is wanted after which it is to be heard anew [octaves]. */
+static const double FAR = 1.0 / 12.0;
+
+/* Errors that are let be [cents]. */
+static const double IN_TUNE = 0.05;
+
+/* The next sum ends where whole periods do; `late` frames of it are over. */
+static void begin_sum(Intonation* ear, double late) {
+  const double period = ear->target.rate_hz / ear->target.tone.f0_hz;
+  const double least = fmax(LEAST_FRAMES, LEAST_S * ear->target.rate_hz);
+  ear->due = ceil(least / period) * period - late;
+  ear->sum[0] = ear->sum[1] = 0.0;
+  ear->n_heard = 0;
+}
+
+/* What was heard so far says nothing of what comes. */
+static void forget(Intonation* ear) {
+  ear->before[0] = ear->before[1] = 0.0;
+  begin_sum(ear, 0.0);
+}
+
+static void listen_for(Intonation* ear, uint32_t n_frames) {
+  const double angle = 2.0 * PI * ear->target.tone.f0_hz / ear->target.rate_hz;
+  ear->turned[0] = cos(angle);
+  ear->turned[1] = -sin(angle);
+  ear->n_turning = n_frames;
+  for (int i = 0; i < 2; ++i) {
+    ear->change[i] = n_frames > 0 ? (ear->turned[i] - ear->turn[i]) / n_frames : 0.0;
+    ear->turn[i] = n_frames > 0 ? ear->turn[i] : ear->turned[i];
+  }
+}
+
+static void move(const Intonation* ear, Chain* chain, uint32_t n_glide) {
+  TuningTarget target = ear->target;
+  StringCoefs coefs = {0};
+  target.tone.f0_hz *= exp2(ear->cents / 1200.0);
+  if (!tuning_fit(&target, chain->n_masses, &coefs)) {
+    chain_glide(chain, coefs, n_glide);
+  }
+}
+
+void intonation_start(Intonation* ear, const TuningTarget* target) {
+  *ear = (Intonation){.target = *target, .now = {1.0, 0.0}, .is_active = true};
+  listen_for(ear, 0);
+  forget(ear);
+}
+
+TuningTarget intonation_retune(Intonation* ear, const TuningTarget* target, uint32_t n_glide) {
+  TuningTarget moved = *target;
+  if (ear->is_active) {
+    const double octaves = log2(target->tone.f0_hz / ear->target.tone.f0_hz);
+    ear->target = *target;
+    listen_for(ear, n_glide);
+    if (fabs(octaves) > FAR) {
+      forget(ear);
+    }
+    moved.tone.f0_hz *= exp2(ear->cents / 1200.0);
+  }
+  return moved;
+}
+
+/* Cents by which what was heard is above what is wanted, from how far one sum is turned against
+ * the one before. */
+static double error_of(const Intonation* ear, double n_frames) {
+  const double* const z = ear->sum;
+  const double* const y = ear->before;
+  const double turned = atan2(z[1] * y[0] - z[0] * y[1], z[0] * y[0] + z[1] * y[1]);
+  const double wanted = 2.0 * PI * ear->target.tone.f0_hz / ear->target.rate_hz * n_frames;
+  return 1200.0 * log2(1.0 + fmax(-0.5, turned / wanted));
+}
+
+/* Tune against what was heard. */
+static void follow(Intonation* ear, Chain* chain, double n_frames) {
+  const double error = error_of(ear, n_frames);
+  if (fabs(error) > IN_TUNE) {
+    const double change = fmin(fmax(-SHARE * error, -MOST_CHANGE), MOST_CHANGE);
+    ear->cents = fmin(fmax(ear->cents + change, -INTONATION_MOST_CENTS), INTONATION_MOST_CENTS);
+    if (ear->n_turning == 0) {
+      move(ear, chain, ear->n_heard);
+    }
+  }
+}
+
+static void add(Intonation* ear, double speed) {
+  const double x = ear->now[0];
+  const double y = ear->now[1];
+  ear->sum[0] += x * speed;
+  ear->sum[1] += y * speed;
+  ear->now[0] = x * ear->turn[0] - y * ear->turn[1];
+  ear->now[1] = x * ear->turn[1] + y * ear->turn[0];
+  ++ear->n_heard;
+}
+
+static void turn(Intonation* ear) {
+  const bool is_last = --ear->n_turning == 0;
+  for (int i = 0; i < 2; ++i) {
+    ear->turn[i] = is_last ? ear->turned[i] : ear->turn[i] + ear->change[i];
+  }
+}
+
+/* What a turn that moves in a straight line loses in length, and rounding. */
+static void mend(Intonation* ear) {
+  const double size = hypot(ear->now[0], ear->now[1]);
+  ear->now[0] /= size;
+  ear->now[1] /= size;
+}
+
+void intonation_hear(Intonation* ear, Chain* chain, double speed) {
+  if (!ear->is_active) {
+    return;
+  }
+  if (ear->n_turning > 0) {
+    turn(ear);
+  }
+  add(ear, speed);
+  if (ear->n_heard >= ear->due) {
+    if (ear->before[0] != 0.0 || ear->before[1] != 0.0) {
+      follow(ear, chain, ear->n_heard);
+    }
+    ear->before[0] = ear->sum[0];
+    ear->before[1] = ear->sum[1];
+    mend(ear);
+    begin_sum(ear, ear->n_heard - ear->due);
+  }
+}
+
+void intonation_leave(Intonation* ear, Chain* chain, uint32_t n_glide) {
+  if (ear->is_active) {
+    ear->is_active = false;
+    ear->cents = 0.0;
+    move(ear, chain, n_glide);
+  }
+}

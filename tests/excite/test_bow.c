@@ -1,0 +1,265 @@
+#include "core/excite/bow.h"
+
+#include "core/excite/contact.h"
+#include "tests/support/oracle.h"
+#include "tests/support/strung.h"
+#include "tools/bench/bench_clock.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static _Alignas(CHAIN_ALIGNMENT) char memory[32 * CHAIN_MAX_MASSES];
+
+static bool is_long(void) {
+  return getenv("HOOKE_TEST_LONG");
+}
+
+static Stroke stroke_anyhow(Random* random) {
+  return (Stroke){
+      .place = random_between(random, 0.0, 1.0),
+      .pressure = random_between(random, -3.0, 4.0),
+      .amplitude = random_log_between(random, 1e-6, 10.0),
+      .attack_s = random_log_between(random, 1e-4, 0.1),
+      .release_s = random_log_between(random, 1e-4, 0.1),
+  };
+}
+
+/* Lift it, let it swell or begin another stroke, now and then. */
+static void change_anyhow(Bow* bow, const Strung* strung, Random* random) {
+  switch (random_below(random, 600)) {
+  case 0:
+    bow_lift(bow);
+    break;
+  case 1:
+    bow_swell(bow, random_between(random, -0.5, 2.5), random_below(random, 500));
+    break;
+  case 2:
+    bow_start(bow, &strung->chain, stroke_anyhow(random), strung->angle1, strung->rate_hz);
+    break;
+  default:
+    break;
+  }
+}
+
+/* What the place does, a second way: eᵀu. */
+static double place_velocity(double place, const Motion* motion) {
+  const double at = fmin(fmax(place * (motion->n + 1.0), 1.0), motion->n);
+  const uint32_t i = (uint32_t)at;
+  const double w = at - i;
+  return (1.0 - w) * motion->u[i - 1] + (w > 0.0 ? w * motion->u[i] : 0.0);
+}
+
+/* Friction of the curve: at most the static, and where it slips just what the curve says. */
+static void assert_on_the_curve(const Bow* bow, double place, StringCoefs coefs, uint32_t n) {
+  const double k1 = coefs.k1;
+  const double force = bow->strength.now * bow->pressed.now * sqrt(k1);
+  const double beta = fmin(place, 1.0 - place);
+  /* Never less than the fall of the friction, times what the string and its roll give way by. */
+  const double at = fmin(fmax(place * (n + 1.0), 1.0), n);
+  const double w = at - floor(at);
+  const double square = (1.0 - w) * (1.0 - w) + w * w;
+  const double give = 0.5 * square + 1.0 / (sqrt(k1) * (1.0 + 0.5 * bow->spring));
+  const double pace = bow->strength.now * bow->paced.now / beta;
+  const double v0 = fmax(1e-300, fmax(pace, 0.5 * give * force));
+  if (bow->grip == BOW_STICKS) {
+    assert_true(bow->slip == 0.0 && fabs(bow->friction) <= 0.8 * force * (1.0 + 1e-12));
+  } else {
+    const double curve = force * (0.3 + 0.5 / (1.0 + fabs(bow->slip) / v0));
+    assert_true(fabs(fabs(bow->friction) - curve) <= 1e-12 * curve);
+    assert_true(bow->friction * bow->slip <= 0.0);
+  }
+}
+
+static void power_comes_from_the_bow_alone(void** state) {
+  (void)state;
+  static Motion motion[2];
+  Random random = random_start();
+  double worst = 0.0;
+  double worst_speed = 0.0;
+  double worst_gift = 0.0;
+  uint32_t n_of[3] = {0};
+  for (int k = 0; k < (is_long() ? 2000 : 200); ++k) {
+    Strung strung;
+    Bow bow = {0};
+    strung_up_anywhere(&strung, memory, &random, CHAIN_DOUBLE);
+    const StringCoefs coefs = strung.chain.now;
+    bow_start(&bow, &strung.chain, stroke_anyhow(&random), strung.angle1, strung.rate_hz);
+    const double swing = bow.paced.now * random_below(&random, 4);
+    chain_push(&strung.chain, strung.chain.n_masses / 2,
+               (float)(swing * (strung.chain.n_masses + 1.0)));
+    bow_look(&bow, &strung.chain);
+    strung_read(&strung, &motion[0]);
+    double before = strung_energy(&motion[0], coefs);
+    double rolled = 0.0;
+    double size = 1e-300;
+    for (int n = 0; n < 1000 && bow.is_active; ++n) {
+      Motion* const old = &motion[n % 2];
+      Motion* const new = &motion[(n + 1) % 2];
+      const double place = bow.place.now;
+      strung_step(&strung, 0);
+      bow_act(&bow, &strung.chain);
+      strung_read(&strung, new);
+      const double speed = 0.5 * (place_velocity(place, old) + place_velocity(place, new));
+      const double after = strung_energy(new, coefs);
+      const double gained = after - before + strung_lost(old, new, coefs);
+      const double roll = 0.5 * bow.spring * sqrt(coefs.k1) * bow.rolled * bow.rolled;
+      size = fmax(size, fmax(fabs(bow.friction * bow.hair), after + roll));
+      worst = fmax(worst, fabs(gained - bow.friction * speed) / size);
+      worst_gift = fmax(worst_gift, (gained + roll - rolled - bow.friction * bow.hair) / size);
+      /* Where it sticks, the string and its roll go with the hair. */
+      const double roll_speed = bow.slip + bow.hair - speed;
+      const double pull = sqrt(coefs.k1) * roll_speed * (1.0 + 0.5 * bow.spring) +
+                          sqrt(coefs.k1) * bow.spring * (bow.rolled - roll_speed);
+      worst_speed = fmax(worst_speed, fabs(pull - bow.friction) /
+                                          (fabs(bow.friction) + sqrt(coefs.k1) * bow.paced.goal));
+      assert_on_the_curve(&bow, place, coefs, strung.chain.n_masses);
+      assert_true(isfinite(after));
+      ++n_of[bow.grip];
+      before = after;
+      rolled = roll;
+      change_anyhow(&bow, &strung, &random);
+    }
+  }
+  print_message("  steps: %u stick, %u slip back, %u ahead\n", n_of[0], n_of[1], n_of[2]);
+  assert_within("energy gained, less the work of the friction", worst, 1e-12);
+  assert_within("energy that neither bow nor friction gave", worst_gift, 1e-12);
+  assert_within("roll against friction", worst_speed, 1e-8);
+  assert_true(n_of[0] > 1000 && n_of[1] > 1000 && n_of[2] > 100);
+}
+
+/* Whatever is asked for, the string has at most what the bow can pull it to. */
+static void storms_of_strokes_stay_bounded(void** state) {
+  (void)state;
+  Random random = random_start();
+  double worst = 0.0;
+  for (int k = 0; k < (is_long() ? 3000 : 300); ++k) {
+    Strung strung;
+    Bow bow = {0};
+    double given = 1e-30;
+    double most = 0.0;
+    static Motion motion;
+    strung_up_anywhere(&strung, memory, &random, CHAIN_FLOAT);
+    for (int n = 0; n < 4000; ++n) {
+      if (random_below(&random, 500) == 0) {
+        if (bow.is_active && random_below(&random, 2)) {
+          bow_lift(&bow);
+        } else {
+          bow_start(&bow, &strung.chain, stroke_anyhow(&random), strung.angle1, strung.rate_hz);
+        }
+      }
+      strung_step(&strung, 0);
+      if (bow_act(&bow, &strung.chain)) {
+        given += fmax(0.0, bow.friction * bow.hair);
+      }
+    }
+    strung_read(&strung, &motion);
+    most = motion_energy(&motion, strung.chain.now);
+    assert_true(isfinite(most));
+    worst = fmax(worst, most / given);
+  }
+  assert_within("energy, of what bows gave", worst, 1.01);
+}
+
+static void a_bow_at_rest_only_brakes(void** state) {
+  (void)state;
+  static Motion motion;
+  Strung strung;
+  Bow bow = {0};
+  strung_key(&strung, memory, 57, 48000.0, 128, 1e9);
+  assert_true(chain_hold(&strung.chain, CHAIN_DOUBLE));
+  chain_push(&strung.chain, 40, 0.01f);
+  bow_start(&bow, &strung.chain, (Stroke){0.13, 0.5, 0.25, 0.01, 0.01}, strung.angle1, 48000.0);
+  bow.drawn.n_left = 0;
+  double before = HUGE_VAL;
+  double first = 0.0;
+  for (int n = 0; n < 48000; ++n) {
+    strung_step(&strung, 0);
+    bow_act(&bow, &strung.chain);
+    strung_read(&strung, &motion);
+    const double energy = motion_energy(&motion, strung.chain.now) +
+                          0.5 * bow.spring * sqrt(strung.chain.now.k1) * bow.rolled * bow.rolled;
+    first = n == 0 ? energy : first;
+    assert_true(energy <= before + 1e-13 * first);
+    before = energy;
+  }
+  assert_true(before < 0.5 * first);
+}
+
+/* From moment to moment the same bow and string, but for a push that grows: the friction goes down
+ * with it all the way, from one slip over sticking to the other, and nowhere jumps. */
+static void friction_does_not_jump(void** state) {
+  (void)state;
+  enum { N_PUSHES = 20000 };
+  static _Alignas(CHAIN_ALIGNMENT) char copy[sizeof memory];
+  Random random = random_start();
+  uint32_t n_of[3] = {0};
+  for (int k = 0; k < 20; ++k) {
+    Strung strung;
+    Bow bow = {0};
+    strung_up_anywhere(&strung, memory, &random, CHAIN_DOUBLE);
+    bow_start(&bow, &strung.chain, stroke_anyhow(&random), strung.angle1, strung.rate_hz);
+    for (int n = 0; n < 10000; ++n) {
+      strung_step(&strung, 0);
+      bow_act(&bow, &strung.chain);
+    }
+    strung_step(&strung, 0);
+    memcpy(copy, memory, sizeof memory);
+    const double force = bow.pressed.now * sqrt(strung.chain.now.k1);
+    const double far = 20.0 * (bow.hair + force) * (1.0 + 1.0 / sqrt(strung.chain.now.k1));
+    double before = 0.0;
+    for (int n = 0; n <= N_PUSHES; ++n) {
+      Bow now = bow;
+      const Contact contact = contact_at(&strung.chain, bow.place.now);
+      memcpy(memory, copy, sizeof memory);
+      contact_push(&strung.chain, &contact, far * (2.0 * n / N_PUSHES - 1.0));
+      bow_act(&now, &strung.chain);
+      /* At most what the string's own yielding makes of a push, and friction's fall as much. */
+      const double most = 2.0 * far / N_PUSHES * contact.square;
+      if (n > 0) {
+        assert_true(fabs(now.friction - before) <= 4.0 * most + 0.06 * force);
+      }
+      before = now.friction;
+      ++n_of[now.grip];
+    }
+  }
+  print_message("  %u stick, %u slip back, %u ahead\n", n_of[0], n_of[1], n_of[2]);
+  assert_true(n_of[0] > 1000 && n_of[1] > 1000 && n_of[2] > 1000);
+}
+
+static void a_bow_costs_little(void** state) {
+  (void)state;
+  enum { N = 20000 };
+  Strung strung;
+  Bow bow = {0};
+  Bow gone = {0};
+  strung_key(&strung, memory, 45, 48000.0, 128, 2.0);
+  bow_start(&bow, &strung.chain, (Stroke){0.13, 0.5, 0.25, 0.01, 0.05}, strung.angle1, 48000.0);
+  double start_s = bench_clock_now_s();
+  for (int i = 0; i < N; ++i) {
+    bow_act(&bow, &strung.chain);
+  }
+  print_message("  %.1f ns a frame", 1e9 * (bench_clock_now_s() - start_s) / N);
+  start_s = bench_clock_now_s();
+  for (int i = 0; i < N; ++i) {
+    assert_false(bow_act(&gone, &strung.chain));
+  }
+  print_message(", lifted %.1f\n", 1e9 * (bench_clock_now_s() - start_s) / N);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(power_comes_from_the_bow_alone),
+      cmocka_unit_test(a_bow_at_rest_only_brakes),
+      cmocka_unit_test(friction_does_not_jump),
+      cmocka_unit_test(storms_of_strokes_stay_bounded),
+      cmocka_unit_test(a_bow_costs_little),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

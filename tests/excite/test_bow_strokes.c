@@ -1,0 +1,121 @@
+/* Strokes that swell, and follow each other. */
+#include "core/excite/bow.h"
+
+#include "core/excite/contact.h"
+#include "tests/support/strung.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static _Alignas(CHAIN_ALIGNMENT) char memory[32 * CHAIN_MAX_MASSES];
+
+static Bow bow_on(Strung* strung, uint32_t key, Stroke stroke) {
+  Bow bow = {0};
+  strung_key(strung, memory, key, 48000.0, 128, 2.0);
+  bow_start(&bow, &strung->chain, stroke, strung->angle1, 48000.0);
+  return bow;
+}
+
+static void bow_frames(Strung* strung, Bow* bow, uint32_t n_frames) {
+  for (uint32_t n = 0; n < n_frames; ++n) {
+    strung_step(strung, 0);
+    bow_act(bow, &strung->chain);
+  }
+}
+
+static void a_swell_goes_in_a_straight_line(void** state) {
+  (void)state;
+  static const struct {
+    double wanted, got;
+    uint32_t n_frames;
+  } swells[] = {{1.7, 1.7, 1000}, {0.2, 0.2, 333}, {-1.0, 0.0, 100}, {9.0, 2.0, 7}, {0.5, 0.5, 0}};
+  Strung strung;
+  Bow bow = bow_on(&strung, 57, (Stroke){0.13, 0.5, 0.25, 0.01, 0.05});
+  bow_frames(&strung, &bow, 5000);
+  const double speed = bow.hair;
+  const double force = bow.pressed.now;
+  double before = 1.0;
+  for (size_t k = 0; k < sizeof swells / sizeof *swells; ++k) {
+    const uint32_t n_frames = swells[k].n_frames;
+    bow_swell(&bow, swells[k].wanted, n_frames);
+    for (uint32_t n = 1; n <= n_frames + 5; ++n) {
+      const double way = n < n_frames ? (double)n / n_frames : 1.0;
+      const double strength = before + way * (swells[k].got - before);
+      bow_frames(&strung, &bow, 1);
+      assert_true(fabs(bow.hair - strength * speed) <= 1e-12 * speed);
+      assert_true(bow.pressed.now == force && bow.paced.now == bow.drawn.now);
+      assert_true(bow.is_active);
+    }
+    before = bow.strength.now;
+    assert_true(before == swells[k].got);
+  }
+}
+
+/* All is in proportion to it: twice the strength is twice the stroke, to the last bit. */
+static void a_swollen_stroke_is_a_stronger_stroke(void** state) {
+  (void)state;
+  static Motion motion[2];
+  for (uint32_t key = 33; key <= 93; key += 12) {
+    for (int way = 0; way < 2; ++way) {
+      Strung strung;
+      Bow bow = bow_on(&strung, key, (Stroke){0.2, 0.7, way == 0 ? 0.1 : 0.2, 0.02, 0.05});
+      if (way == 0) {
+        bow_swell(&bow, 2.0, 0);
+      }
+      bow_frames(&strung, &bow, 6000);
+      strung_read(&strung, &motion[way]);
+    }
+    for (uint32_t i = 0; i < motion[0].n; ++i) {
+      assert_true(motion[0].x[i] == motion[1].x[i] && motion[0].u[i] == motion[1].u[i]);
+    }
+  }
+}
+
+/* Hair, force and place go on from where they are, whatever the strokes and their strength. */
+static void a_stroke_takes_over_from_the_one_before(void** state) {
+  (void)state;
+  static const Stroke strokes[] = {{0.13, 0.5, 0.25, 0.01, 0.05},
+                                   {0.13, 0.5, 0.25, 0.01, 0.05},
+                                   {0.3, 0.9, 0.05, 0.02, 0.05},
+                                   {0.06, 0.1, 0.5, 0.005, 0.05}};
+  Strung strung;
+  Bow bow = bow_on(&strung, 57, strokes[0]);
+  for (size_t k = 1; k < 8; ++k) {
+    bow_swell(&bow, 0.25 * (double)k, 100);
+    bow_frames(&strung, &bow, k % 3 == 2 ? 200 : 3000);
+    if (k % 2 == 0) {
+      bow_lift(&bow);
+      bow_frames(&strung, &bow, 600);
+    }
+    const Bow was = bow;
+    const Stroke stroke = strokes[k % 4];
+    const double n_frames = 48000.0 * stroke.attack_s;
+    bow_start(&bow, &strung.chain, stroke, strung.angle1, 48000.0);
+    const double force = was.strength.now * was.pressed.now;
+    const double hair_step = fabs(bow.drawn.goal - was.hair) / n_frames;
+    const double force_step = 2.0 * fabs(bow.pressed.goal - force) / n_frames;
+    bow_frames(&strung, &bow, 1);
+    assert_true(fabs(bow.hair - was.hair) <= hair_step * (1.0 + 1e-9));
+    assert_true(fabs(bow.pressed.now - force) <= force_step * (1.0 + 1e-9));
+    assert_true(fabs(bow.place.now - was.place.now) <= 0.3 / n_frames);
+    bow_frames(&strung, &bow, (uint32_t)n_frames);
+    assert_true(bow.place.now == fmax(0.03, stroke.place) && bow.hair == bow.drawn.goal);
+    assert_true(bow.strength.now == 1.0 && bow.is_active && !bow.is_lifted);
+    const Contact contact = contact_at(&strung.chain, bow.place.now);
+    assert_true(fabs(bow.before - contact_velocity(&strung.chain, &contact)) < 1e-6 * bow.hair);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_swell_goes_in_a_straight_line),
+      cmocka_unit_test(a_swollen_stroke_is_a_stronger_stroke),
+      cmocka_unit_test(a_stroke_takes_over_from_the_one_before),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,202 @@
+/* Sympathy in all weathers: no setting and no gesture makes it explode, step, or depend on blocks.
+ */
+#include "core/harp/harp.h"
+
+#include "tests/support/harps.h"
+#include "tests/support/measure.h"
+#include "tests/support/random.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { STORM = 12000, CALM = 24000, MOST_BLOCK = 1000 };
+
+static float left[2][CALM];
+static float right[2][CALM];
+
+static Patch draw_patch(Random* random) {
+  static const uint32_t most_masses[] = {1, 4, 24, 80};
+  Patch patch = harps_patch(random_below(random, HARPS_N_WAYS));
+  patch.resonance =
+      random_below(random, 3) ? random_between(random, 0.0, 1.0) : (double)random_below(random, 2);
+  patch.damping_per_s = random_log_between(random, 0.02, 200.0);
+  patch.tracking = random_between(random, 0.0, 1.0);
+  patch.loss = random_log_between(random, 1e-5, 1.0);
+  patch.inharmonicity = random_log_between(random, 1e-6, 0.1);
+  patch.partials = (Partials)random_below(random, 3);
+  patch.release_s = random_log_between(random, 0.005, 10.0);
+  patch.tuning_hz = random_between(random, 400.0, 480.0);
+  patch.max_masses = most_masses[random_below(random, 4)];
+  return patch;
+}
+
+/* One thing that a player may do. */
+static void gesture(Harp* harp, Random* random) {
+  const uint32_t key =
+      random_below(random, 3) ? 40 + random_below(random, 40) : random_below(random, HARP_KEYS);
+  switch (random_below(random, 9)) {
+  case 0:
+  case 1:
+  case 2:
+    harp_note_on(harp, random_below(random, 2), key, 1 + random_below(random, 127));
+    break;
+  case 3:
+    harp_note_off(harp, random_below(random, 2), key);
+    break;
+  case 4:
+    harp_pedal(harp, 0, random_below(random, 2) ? 1.0 : random_between(random, 0.0, 1.0));
+    break;
+  case 5:
+    harp_bend(harp, 0, random_between(random, -2.0, 2.0) * (random_below(random, 3) ? 1.0 : 12.0));
+    break;
+  case 6:
+    harp_vibrato(harp, 0, random_between(random, 0.0, 1.0));
+    break;
+  case 7:
+    if (random_below(random, 8) == 0) {
+      harp_all_sound_off(harp);
+    }
+    break;
+  default: {
+    const Patch patch = draw_patch(random);
+    harp_set_patch(harp, &patch, random_below(random, 1000));
+  }
+  }
+}
+
+/* The loudest sample over a full note's, and the least stability. */
+static double storm(double rate_hz, Random* random, double* headroom) {
+  const Patch patch = draw_patch(random);
+  Harp* const harp = harps_new(rate_hz, &patch);
+  double peak = 0.0;
+  harp_pedal(harp, 0, 1.0);
+  for (uint32_t done = 0; done < STORM;) {
+    const uint32_t n = 1 + random_below(random, 400);
+    gesture(harp, random);
+    harp_run(harp, n, left[0], right[0]);
+    peak = fmax(peak, fmax(measure_peak(left[0], n), measure_peak(right[0], n)));
+    assert_true(isfinite(harp->bridge.bridge.y) && isfinite(harp->bridge.bridge.w));
+    *headroom = fmin(*headroom, harp_report(harp).headroom);
+    done += n;
+  }
+  harp_free(harp);
+  return peak / HARP_NOTE_PEAK;
+}
+
+/*
+  As many notes as a storm has, each as loud as it may be, and four times that, as bends may feed
+  them, are no more than a few hundred.
+*/
+static void storms_do_not_explode(void** state) {
+  (void)state;
+  static const double rates[] = {8e3, 44.1e3, 48e3, 192e3};
+  const int n_storms = getenv("HOOKE_TEST_LONG") ? 2000 : 40;
+  Random random = random_start();
+  double peak = 0.0;
+  double headroom = 1.0;
+  for (int i = 0; i < n_storms; ++i) {
+    peak = fmax(peak, storm(rates[i % 4], &random, &headroom));
+  }
+  print_message("  peak %.1f notes, headroom %g\n", peak, headroom);
+  assert_true(peak < 200.0);
+  assert_true(headroom > 0.0);
+}
+
+/* The worst that a bend can do: it swings all open strings in time with the one that was played,
+ * for long. */
+static void bends_in_time_do_not_feed_the_bridge(void** state) {
+  (void)state;
+  Patch patch = harps_patch(0);
+  patch.resonance = 1.0;
+  patch.damping_per_s = 0.02;
+  patch.max_masses = 16;
+  double most = 0.0;
+  for (uint32_t period = 200; period < 240; period += 20) {
+    Harp* const harp = harps_new(48e3, &patch);
+    harp_pedal(harp, 0, 1.0);
+    harp_note_on(harp, 0, 45, 127);
+    harp_run(harp, CALM, left[0], right[0]);
+    for (int i = 0; i < 300; ++i) {
+      harp_bend(harp, 0, i % 2 ? 12.0 : 0.0);
+      harp_run(harp, period, left[0], right[0]);
+      most = fmax(most, measure_peak(left[0], period));
+    }
+    harp_free(harp);
+  }
+  print_message("  peak %.1f notes\n", most / HARP_NOTE_PEAK);
+  assert_true(most < 40.0 * HARP_NOTE_PEAK);
+}
+
+/* The same storm, in blocks of its own. */
+static void play(uint64_t seed, uint32_t block, float* l, float* r) {
+  Random random = {seed};
+  const Patch patch = draw_patch(&random);
+  Harp* const harp = harps_new(48e3, &patch);
+  harp_pedal(harp, 0, 1.0);
+  for (uint32_t done = 0; done < CALM;) {
+    const uint32_t n_until = 1 + random_below(&random, 2000);
+    const uint32_t end = done + n_until < CALM ? done + n_until : CALM;
+    gesture(harp, &random);
+    while (done < end) {
+      const uint32_t n = end - done < block ? end - done : block;
+      harp_run(harp, n, l + done, r + done);
+      done += n;
+    }
+  }
+  harp_free(harp);
+}
+
+static void blocks_do_not_change_the_sound(void** state) {
+  (void)state;
+  static const uint32_t blocks[] = {1, 7, 64, 65, MOST_BLOCK};
+  Random random = random_start();
+  for (int i = 0; i < 20; ++i) {
+    const uint64_t seed = ((uint64_t)random_below(&random, 1u << 31) << 20) + 1;
+    play(seed, 256, left[0], right[0]);
+    play(seed, blocks[i % 5], left[1], right[1]);
+    assert_memory_equal(left[0], left[1], sizeof(left[0]));
+    assert_memory_equal(right[0], right[1], sizeof(right[0]));
+  }
+}
+
+/* From any resonance to any other while all strings ring. */
+static void moving_resonance_makes_no_step(void** state) {
+  (void)state;
+  static const double levels[] = {0.0, 1.0, 0.3, 0.0, 0.7};
+  Patch patch = harps_patch(0);
+  patch.damping_per_s = 0.1;
+  Harp* const harp = harps_new(48e3, &patch);
+  harp_pedal(harp, 0, 1.0);
+  for (uint32_t key = 45; key < 80; key += 7) {
+    harp_note_on(harp, 0, key, 100);
+  }
+  harp_run(harp, CALM, left[0], right[0]);
+  const double before = harps_largest_step(left[0] + CALM / 2 + 1, CALM / 2 - 1);
+  double worst = 0.0;
+  for (uint32_t i = 0; i < 5; ++i) {
+    patch.resonance = levels[i];
+    left[0][0] = left[0][3999];
+    harp_set_patch(harp, &patch, 0 + 300);
+    harp_run(harp, 3999, left[0] + 1, right[0]);
+    worst = fmax(worst, harps_largest_step(left[0] + 1, 3999));
+  }
+  print_message("  steps %g, before %g\n", worst, before);
+  assert_true(worst < 1.1 * before);
+  harp_free(harp);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(storms_do_not_explode),
+      cmocka_unit_test(bends_in_time_do_not_feed_the_bridge),
+      cmocka_unit_test(blocks_do_not_change_the_sound),
+      cmocka_unit_test(moving_resonance_makes_no_step),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

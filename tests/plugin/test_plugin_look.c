@@ -1,0 +1,156 @@
+/* What the Turtle tells a host that draws a panel by itself: names, groups and their order read
+ * well.  Hosts that draw ports by their index cannot be helped, for that never changes. */
+#include "tests/support/panel.h"
+#include "tests/support/programs.h"
+
+#include <lv2/core/lv2.h>
+#include <lv2/port-groups/port-groups.h>
+#include <lv2/port-props/port-props.h>
+
+#include <ctype.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { LONGEST_SHORT_NAME = 16, LONGEST_NAME = 24 };
+
+/* A control, its group, in the order in which a player looks for them. */
+typedef struct {
+  const char* symbol;
+  const char* group;
+} Shown;
+
+static const Shown of_strings[] = {
+    {"level", "level"},        {"exciter", "touch"},   {"damping", "string"},
+    {"hardness", "touch"},     {"loss", "string"},     {"pluck", "touch"},
+    {"pickup", "pickups"},     {"sense", "pickups"},   {"stiffness", "string"},
+    {"resonance", "string"},   {"release", "touch"},   {"tracking", "string"},
+    {"spread", "pickups"},     {"partials", "string"}, {"masses", "string"},
+    {"vibrato_rate", "touch"}, {"tuning", "string"},   {"limiter", "level"},
+};
+
+static const Shown of_guitar[] = {
+    {"level", "level"},     {"damping", "string"},   {"hardness", "touch"},  {"loss", "string"},
+    {"palm", "touch"},      {"pluck", "touch"},      {"pickup", "pickups"},  {"blend", "pickups"},
+    {"pickup2", "pickups"}, {"stiffness", "string"}, {"harmonic", "touch"},  {"strum", "player"},
+    {"release", "touch"},   {"tracking", "string"},  {"legato", "player"},   {"mode", "player"},
+    {"width", "level"},     {"course", "string"},    {"partials", "string"}, {"masses", "string"},
+    {"capo", "neck"},       {"string1", "neck"},     {"string2", "neck"},    {"string3", "neck"},
+    {"string4", "neck"},    {"string5", "neck"},     {"string6", "neck"},    {"tuning", "string"},
+    {"limiter", "level"},
+};
+
+static bool is_small_word(const char* word) {
+  return !strncmp(word, "of ", 3) || !strncmp(word, "per ", 4) || !strncmp(word, "and ", 4);
+}
+
+static void check_title(const char* name, size_t longest) {
+  print_message("%s\n", name);
+  assert_in_range(strlen(name), 1, longest);
+  for (size_t i = 0; name[i]; ++i) {
+    if (i == 0 || name[i - 1] == ' ') {
+      assert_true(isupper((unsigned char)name[i]) || isdigit((unsigned char)name[i]) ||
+                  is_small_word(name + i));
+    }
+  }
+}
+
+static void check_names(Host* host, uint32_t port) {
+  static const char* const predicates[] = {LV2_CORE__name, LV2_CORE_PREFIX "shortName"};
+  for (int k = 0; k < 2; ++k) {
+    LilvNode* const name = panel_get(host, port, predicates[k]);
+    assert_non_null(name);
+    check_title(lilv_node_as_string(name), k ? LONGEST_SHORT_NAME : LONGEST_NAME);
+    for (uint32_t i = 0; i < port; ++i) {
+      LilvNode* const other = panel_get(host, i, predicates[k]);
+      assert_false(lilv_node_equals(name, other));
+      lilv_node_free(other);
+    }
+    lilv_node_free(name);
+  }
+}
+
+static void names_are_titles_and_short_ones_short(void** state) {
+  (void)state;
+  panel_check_all(check_names);
+}
+
+static void check_comment(Host* host, uint32_t port) {
+  LilvNode* const comment = panel_get(host, port, LILV_NS_RDFS "comment");
+  print_message("%s\n", host_port_symbol(host, port));
+  assert_non_null(comment);
+  const char* const text = lilv_node_as_string(comment);
+  assert_true(isupper((unsigned char)text[0]) && text[strlen(text) - 1] == '.');
+  lilv_node_free(comment);
+}
+
+static void each_says_what_it_does(void** state) {
+  (void)state;
+  panel_check_all(check_comment);
+}
+
+static void check_group(Host* host, uint32_t port, const char* wanted) {
+  LilvNode* const group = panel_get(host, port, LV2_PORT_GROUPS__group);
+  assert_non_null(group);
+  LilvNode* const symbol = panel_of(host, group, LV2_CORE__symbol);
+  LilvNode* const name = panel_of(host, group, LV2_CORE__name);
+  LilvNode* const label = panel_of(host, group, LILV_NS_RDFS "label");
+  assert_string_equal(lilv_node_as_string(symbol), wanted);
+  check_title(lilv_node_as_string(name), LONGEST_SHORT_NAME);
+  assert_null(label); /* It is no preset of the same name. */
+  lilv_node_free(symbol);
+  lilv_node_free(name);
+  lilv_node_free(group);
+}
+
+static int priority_of(Host* host, uint32_t port) {
+  LilvNode* const priority = panel_get(host, port, LV2_PORT_PROPS__displayPriority);
+  const int value = priority ? lilv_node_as_int(priority) : -1;
+  lilv_node_free(priority);
+  return value;
+}
+
+static void check_order(int plugin, const Shown shown[], uint32_t n_shown) {
+  Host* const host = programs_open(plugin);
+  int before = 101;
+  uint32_t n_inputs = 0;
+  for (uint32_t k = 0; k < host_n_presets(host); ++k) {
+    LilvNode* const preset = lilv_new_uri(host_world(host), host_preset_uri(host, k));
+    (void)lilv_world_load_resource(host_world(host), preset);
+    lilv_node_free(preset);
+  }
+  for (uint32_t i = 0; i < n_shown; ++i) {
+    const uint32_t port = host_port_index(host, shown[i].symbol);
+    print_message("%s\n", shown[i].symbol);
+    assert_true(panel_shows(host, port));
+    assert_true(priority_of(host, port) < before);
+    before = priority_of(host, port);
+    check_group(host, port, shown[i].group);
+  }
+  for (uint32_t i = 0; i < host_n_ports(host); ++i) {
+    n_inputs += host_port_is_control_input(host, i) && panel_shows(host, i);
+  }
+  assert_true(before >= 0);
+  assert_int_equal(n_inputs, n_shown);
+  check_group(host, host_port_index(host, "sounding"), "meters");
+  check_group(host, host_port_index(host, "mass_count"), "meters");
+  check_group(host, host_port_index(host, "headroom"), "meters");
+  host_free(host);
+}
+
+static void controls_are_in_groups_and_in_order(void** state) {
+  (void)state;
+  check_order(0, of_strings, sizeof(of_strings) / sizeof(of_strings[0]));
+  check_order(1, of_guitar, sizeof(of_guitar) / sizeof(of_guitar[0]));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(names_are_titles_and_short_ones_short),
+      cmocka_unit_test(each_says_what_it_does),
+      cmocka_unit_test(controls_are_in_groups_and_in_order),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,298 @@
+/* Tuning files in sessions and presets. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "tests/support/scale_host.h"
+
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { RATE = 48000, BLOCK = 256 };
+
+static const char SCALE[] = "19-equal.scl";
+static const char MAPPING[] = "white-keys.kbm";
+static const char FIFTHS[] = "Fifths\n1\n3/2\n";
+
+/* A host whose state is that of a directory, as a session begins: without a worker. */
+static Host* open_session(const ScalePath* directory) {
+  Host* const host = strings_open(RATE, BLOCK);
+  LilvState* const state = host_load_state_dir(host, directory->text);
+  assert_non_null(state);
+  host_worker(host)->mode = HOST_WORK_REFUSED;
+  host_restore_state(host, state);
+  lilv_state_free(state);
+  assert_true(host_run(host, BLOCK));
+  return host;
+}
+
+static void save(Host* host, const ScalePath* directory) {
+  assert_true(host_save_state_dir(host, directory->text));
+}
+
+/* Use one file of a test's own. */
+static void use_file(Host* host, const ScalePath* path) {
+  scale_set(host, SCALE_PARAMETER, path->text);
+  assert_true(host_run(host, BLOCK) && host_run(host, BLOCK));
+}
+
+/* By the end of its path; an empty one: none at all. */
+static void assert_told_scale(Host* host, const char* end) {
+  ScalePath told;
+  scale_get(host, SCALE_PARAMETER);
+  assert_true(host_run(host, BLOCK));
+  assert_true(scale_told(host, SCALE_PARAMETER, &told));
+  assert_true(strlen(told.text) >= strlen(end) && (*end || !*told.text));
+  assert_string_equal(told.text + strlen(told.text) - strlen(end), end);
+}
+
+static void a_session_brings_its_files_back(void** state) {
+  (void)state;
+  const ScalePath directory = scale_new_directory();
+  Host* const before = strings_open(RATE, BLOCK);
+  scale_use(before, SCALE, MAPPING);
+  save(before, &directory);
+  host_free(before);
+  Host* const after = open_session(&directory);
+  scale_assert_heard(after, SCALE, MAPPING);
+  assert_int_equal(host_worker(after)->n_works, 0);
+  char path[2 * SCALE_HOST_PATH];
+  (void)snprintf(path, sizeof(path), "%s/%s", directory.text, SCALE);
+  assert_told_scale(after, path);
+  host_free(after);
+  scale_remove_directory(&directory);
+}
+
+/* The state names no place outside: it is moved as a whole, and the file with it. */
+static void a_session_may_move(void** state) {
+  (void)state;
+  const ScalePath old = scale_new_directory();
+  const ScalePath new = scale_new_directory();
+  const ScalePath file = scale_write(&old, "fifths.scl", FIFTHS);
+  Host* const before = strings_open(RATE, BLOCK);
+  use_file(before, &file);
+  save(before, &old);
+  host_free(before);
+  assert_int_equal(rename(old.text, new.text), 0);
+  Host* const after = open_session(&new);
+  scale_assert_pitch(after, 68, 440.0 / 1.5);
+  save(after, &new);
+  host_free(after);
+  Host* const again = open_session(&new);
+  scale_assert_pitch(again, 70, 440.0 * 1.5);
+  host_free(again);
+  scale_remove_directory(&new);
+}
+
+/* To have none is a state as well. */
+static void a_session_without_files_takes_them_away(void** state) {
+  (void)state;
+  const ScalePath directory = scale_new_directory();
+  Host* const host = strings_open(RATE, BLOCK);
+  save(host, &directory);
+  scale_use(host, SCALE, MAPPING);
+  LilvState* const saved = host_load_state_dir(host, directory.text);
+  host_restore_preset(host, saved);
+  assert_true(host_run(host, BLOCK));
+  scale_assert_heard(host, NULL, NULL);
+  assert_told_scale(host, "");
+  lilv_state_free(saved);
+  host_free(host);
+  scale_remove_directory(&directory);
+}
+
+static void a_preset_of_ports_keeps_the_scale(void** state) {
+  (void)state;
+  Host* const host = strings_open(RATE, BLOCK);
+  scale_use(host, SCALE, MAPPING);
+  assert_true(host_preset(host, "Concert Harp"));
+  strings_set(host, "damping", 0.5);
+  strings_set(host, "tracking", 0.5);
+  strings_set(host, "tuning", 440.0);
+  scale_assert_heard(host, SCALE, MAPPING);
+  assert_told_scale(host, SCALE);
+  host_free(host);
+}
+
+static LilvState* state_of(Host* host, const char* properties) {
+  char turtle[2 * SCALE_HOST_PATH];
+  (void)snprintf(turtle, sizeof(turtle),
+                 "@prefix pset: <http://lv2plug.in/ns/ext/presets#> .\n"
+                 "@prefix state: <http://lv2plug.in/ns/ext/state#> .\n"
+                 "@prefix atom: <http://lv2plug.in/ns/ext/atom#> .\n"
+                 "<urn:hooke:state> a pset:Preset ;\n"
+                 "  <http://lv2plug.in/ns/lv2core#appliesTo> <" STRINGS_URI "> ;\n"
+                 "  state:state [ %s ] .\n",
+                 properties);
+  LilvState* const state = host_state_from_string(host, turtle);
+  assert_non_null(state);
+  return state;
+}
+
+static void restore(Host* host, const char* properties) {
+  LilvState* const state = state_of(host, properties);
+  host_restore_state(host, state);
+  lilv_state_free(state);
+  assert_true(host_run(host, BLOCK));
+}
+
+/* One alone; and something that is no path. */
+static void what_a_state_does_not_say_stays(void** state) {
+  (void)state;
+  char properties[SCALE_HOST_PATH + 200];
+  Host* const host = strings_open(RATE, BLOCK);
+  scale_use(host, SCALE, NULL);
+  (void)snprintf(properties, sizeof(properties), "<" MAPPING_PARAMETER "> \"%s\"^^atom:Path",
+                 scale_path(MAPPING).text);
+  restore(host, properties);
+  scale_assert_heard(host, SCALE, MAPPING);
+  restore(host, "<" SCALE_PARAMETER "> 12 ; <" MAPPING_PARAMETER "> \"x\"");
+  scale_assert_heard(host, SCALE, MAPPING);
+  restore(host, "<" MAPPING_PARAMETER "> \"\"");
+  scale_assert_heard(host, SCALE, NULL);
+  host_free(host);
+}
+
+static char* log_of_session(const ScalePath* directory, Host** host) {
+  scale_log_begin();
+  *host = open_session(directory);
+  return scale_log_end();
+}
+
+static unsigned n_lines(const char* text, const char* word) {
+  unsigned n = 0;
+  for (const char* at = strstr(text, word); at; at = strstr(at + 1, word)) {
+    ++n;
+  }
+  return n;
+}
+
+/* It is named once; meanwhile equal temperament; saved again nothing is lost. */
+static void a_file_that_is_gone_may_come_back(void** state) {
+  (void)state;
+  const ScalePath directory = scale_new_directory();
+  const ScalePath elsewhere = scale_new_directory();
+  const ScalePath file = scale_write(&elsewhere, "fifths.scl", FIFTHS);
+  Host* before = strings_open(RATE, BLOCK);
+  use_file(before, &file);
+  scale_assert_pitch(before, 70, 660.0);
+  save(before, &directory);
+  host_free(before);
+  assert_int_equal(unlink(file.text), 0);
+  for (int i = 0; i < 2; ++i) {
+    char* const said = log_of_session(&directory, &before);
+    assert_int_equal(n_lines(said, "fifths.scl:1: found no text (No such file or directory), "
+                                   "expected a Scala scale (.scl)\n"),
+                     1);
+    free(said);
+    scale_assert_pitch(before, 70, 440.0 * 1.0594630943592953);
+    save(before, &directory);
+    assert_told_scale(before, "fifths.scl");
+    host_free(before);
+  }
+  (void)scale_write(&elsewhere, "fifths.scl", FIFTHS);
+  Host* const after = open_session(&directory);
+  scale_assert_pitch(after, 70, 660.0);
+  host_free(after);
+  scale_remove_directory(&directory);
+  scale_remove_directory(&elsewhere);
+}
+
+/* What is heard does not depend on what was heard before. */
+static void a_broken_file_is_named_with_its_line(void** state) {
+  (void)state;
+  const ScalePath directory = scale_new_directory();
+  const ScalePath scale = scale_write(&directory, "a.scl", "Fifths\n2\n3/2\nsecond\n");
+  const ScalePath map = scale_write(&directory, "a.kbm", "0\n0\n127\n60\n200\n");
+  const ScalePath paths[] = {scale, map, directory};
+  static const char* const words[] = {"a.scl:4: found 'second', expected pitch 2 of 2",
+                                      "a.kbm:5: found '200', expected ",
+                                      ":1: found no text (Is a "};
+  Host* const host = strings_open(RATE, BLOCK);
+  for (size_t i = 0; i < 3; ++i) {
+    scale_use(host, SCALE, MAPPING);
+    scale_log_begin();
+    scale_set(host, i == 1 ? MAPPING_PARAMETER : SCALE_PARAMETER, paths[i].text);
+    assert_true(host_run(host, BLOCK) && host_run(host, BLOCK));
+    char* const said = scale_log_end();
+    assert_int_equal(n_lines(said, "\n"), 1);
+    assert_int_equal(n_lines(said, words[i]), 1);
+    assert_int_equal(n_lines(said, paths[i].text), 1);
+    free(said);
+    scale_assert_heard(host, i == 1 ? SCALE : NULL, i == 1 ? NULL : MAPPING);
+  }
+  assert_told_scale(host, directory.text);
+  host_free(host);
+  scale_remove_directory(&directory);
+}
+
+/* A host that restores, saves and lets work while it runs. */
+typedef struct {
+  Host* host;
+  atomic_bool is_over;
+  unsigned n_runs;
+} Runner;
+
+static void* run_all_the_time(void* data) {
+  Runner* const runner = data;
+  LilvInstance* const instance = host_instance(runner->host);
+  for (; !atomic_load(&runner->is_over); ++runner->n_runs) {
+    lilv_instance_run(instance, runner->n_runs % BLOCK);
+  }
+  return NULL;
+}
+
+static void it_may_be_restored_while_it_runs(void** state) {
+  (void)state;
+  enum { N_TIMES = 500 };
+  static Runner runner;
+  LilvState* states[2];
+  pthread_t thread;
+  Host* const host = strings_open(RATE, BLOCK);
+  for (int i = 0; i < 2; ++i) {
+    scale_use(host, i ? SCALE : "just-major.scl", i ? NULL : MAPPING);
+    states[i] = host_save_state(host);
+    assert_non_null(states[i]);
+  }
+  strings_note_on(host, 0, 40, 127);
+  strings_note_on(host, 0, 61, 127);
+  assert_true(host_run(host, BLOCK));
+  host_connect(host, host_port_index(host, "control"), NULL);
+  runner.host = host;
+  assert_int_equal(pthread_create(&thread, NULL, run_all_the_time, &runner), 0);
+  for (int i = 0; i < N_TIMES; ++i) {
+    host_restore_state(host, states[i % 2]);
+    LilvState* const now = host_save_state(host);
+    assert_true(lilv_state_equals(now, states[i % 2]));
+    lilv_state_free(now);
+  }
+  atomic_store(&runner.is_over, true);
+  assert_int_equal(pthread_join(thread, NULL), 0);
+  print_message("%u runs\n", runner.n_runs);
+  assert_true(runner.n_runs > 10);
+  host_reconnect(host);
+  scale_assert_heard(host, SCALE, NULL);
+  lilv_state_free(states[0]);
+  lilv_state_free(states[1]);
+  host_free(host);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_session_brings_its_files_back),
+      cmocka_unit_test(a_session_may_move),
+      cmocka_unit_test(a_session_without_files_takes_them_away),
+      cmocka_unit_test(a_preset_of_ports_keeps_the_scale),
+      cmocka_unit_test(what_a_state_does_not_say_stays),
+      cmocka_unit_test(a_file_that_is_gone_may_come_back),
+      cmocka_unit_test(a_broken_file_is_named_with_its_line),
+      cmocka_unit_test(it_may_be_restored_while_it_runs),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,68 @@
+#!/bin/sh
+#
+# `hooke bench` from the outside: what it prints, and what it refuses. What it measures is not held to anything here.
+
+set -u
+
+. "$HOOKE_SOURCE/tests/support/claims.sh"
+
+# head TEXT: the first line of `log`.
+heads() {
+    same "$(head -n 1 log)" "$1" "columns"
+}
+
+# numbers FIRST N: of `log`, from column FIRST on, all are numbers and none is below 0, in N lines.
+numbers() {
+    tail -n +2 log | awk -F, -v first="$1" '{
+        for (i = first; i <= NF; ++i) if ($i !~ /^[0-9.]+$/ && !($i == "" && i == NF)) exit 1
+    }' || fail "not all are numbers: $(cat log)"
+    same "$(tail -n +2 log | wc -l)" "$2" "lines"
+}
+
+answer 0 bench scenes --csv --seconds 0 --masses 40 --numbers double --scene straightened-2
+heads "kernel,numbers,scene,masses,ns_per_mass_step,share_of_peak"
+n_kernels=$(tail -n +2 log | cut -d , -f 1 | uniq | wc -l)
+numbers 4 $((4 * n_kernels))
+same "$(cut -d , -f 3 log | grep -c -e '-straightened-.*-2$')" $((4 * n_kernels)) "scenes"
+awk -F, 'NR > 1 && !($5 > 0 && $6 > 0 && $6 < 1.5) { exit 1 }' log || fail "no likely figures: $(cat log)"
+
+answer 0 bench scenes --seconds 0 --masses 8 --scene ground-flexible-still-1
+same "$(grep -c '^ground-flexible-still-1 .*%$' log)" $((3 * n_kernels)) "lines of the table"
+
+answer 0 bench loads --csv --seconds 0
+heads "load,strings,masses,ns_per_mass_step,goal_ns,share_of_core,share_of_peak,strings_per_core,strings_cut"
+numbers 2 9
+same "$(sed -n 's/^one_80,\([0-9]*,[0-9]*\),.*/\1/p' log)" 1,80 "strings and masses of one string"
+same "$(sed -n 's/^six_80,\([0-9]*,[0-9]*\),.*/\1/p' log)" 6,480 "strings and masses of six"
+same "$(awk -F, '$1 == "keys_88" { print $2, ($3 > 15000 && $3 < 15500), $9 }' log)" "88 1 0" "the keys of a piano"
+same "$(awk -F, '$1 == "keys_128" { print $2, ($3 > 36000 && $3 < 37000), $9 }' log)" "128 1 18" "all keys"
+awk -F, 'NR > 1 { d = $6 - $3 * $4 * 48000e-9; if (d > 1e-3 * $6 + 2e-6 || -d > 1e-3 * $6 + 2e-6) exit 1 }' log ||
+    fail "shares of a core are not mass-steps times their time: $(cat log)"
+
+answer 0 bench start --csv
+heads "rate_hz,harp_ms,harp_bytes,plugin_ms"
+same "$(tail -n +2 log | cut -d , -f 1 | tr '\n' ' ')" "44100 48000 96000 192000 " "rates"
+
+answer 0 bench --host urn:hooke:strings --csv
+heads "notes,ns_per_frame,share_of_core,start_ms"
+numbers 1 5
+awk -F, 'NR > 2 && !($2 > last) { exit 1 } { last = $2 }' log || fail "more notes cost no more: $(cat log)"
+
+answer 0 bench --one between-bending-moving-2,float,3,1000 --one awake,5,640 --one asleep,5,640
+test ! -s log || fail "--one says $(cat log)"
+
+refuse 1 "not found" bench --host urn:hooke:none
+refuse 2 "found 2 parts, expected one" bench scenes loads --csv
+refuse 2 "found 'humming'" bench humming
+refuse 2 "expected words of a scene" bench --scene damp
+refuse 2 "expected float, double or fixed" bench --numbers int
+refuse 2 "--masses" bench --masses 1025
+refuse 2 "--masses" bench --masses 0
+refuse 2 "--seconds" bench --seconds nan
+refuse 2 "expected no part" bench loads --host urn:hooke:strings
+for what in '' ground ground-flexible-still-1,float,80 ground-flexible-still-1,float,0,9 awake,129,64 awake,1,64x \
+    between-flexible-moving-1,fixed,80,64 undamped-flexible-still-1,fixed,80,64 asleep,1; do
+    refuse 2 "--one: found '$what'" bench --one "$what"
+done
+
+test "$n_failed" -eq 0

@@ -1,0 +1,217 @@
+#!/bin/sh
+#
+# `hooke render` from the outside: what it writes, what it refuses, and what it leaves behind.
+
+set -u
+
+. "$HOOKE_SOURCE/tests/support/claims.sh"
+
+size() {
+    wc -c <"$1" | tr -d ' '
+}
+
+# A song without a note, a note of half a second, and a song of three notes at three tempi.
+printf 'MThd\0\0\0\006\0\0\0\001\001\340MTrk\0\0\0\004\0\377\057\0' >rest.mid
+printf 'MThd\0\0\0\006\0\0\0\001\001\340MTrk\0\0\0\014\0\220\074\144\203\140\074\0\0\377\057\0' >note.mid
+{
+    printf 'MThd\0\0\0\006\0\001\0\002\001\340'
+    printf 'MTrk\0\0\0\032\0\377\121\003\003\320\220\201\160\377\121\003\007\241\040\074\377\121\003\003\015\100\0\377\057\0'
+    printf 'MTrk\0\0\0\027\0\220\060\144\201\000\220\067\120\202\000\220\074\160\203\140\260\100\177\0\377\057\0'
+} >song.mid
+
+writes_a_stereo_wav_of_floats() {
+    render note.mid out/a.wav || return
+    same "$(field out/a.wav 20 2)" 3 'format of a.wav'
+    same "$(field out/a.wav 22 2)" 2 'channels of a.wav'
+    same "$(field out/a.wav 24 4)" 48000 'rate of a.wav'
+    grep -q '^out/a\.wav: [0-9.]* s, peak -*[0-9.]* dBFS, [0-9.]* times as fast as real time$' log ||
+        fail "said '$(cat log)'"
+    test ! -s errors || fail "not on a terminal, and yet '$(cat errors)'"
+    render --quiet note.mid out/b.wav || return
+    test ! -s log || fail "--quiet said '$(cat log)'"
+    cmp out/a.wav out/b.wav || fail "two runs differ"
+}
+
+the_rate_is_what_was_asked_for() {
+    render --rate 44100 --tail 1 note.mid out/a.wav || return
+    same "$(field out/a.wav 24 4)" 44100 rate
+    grep -q ': 1\.50 s' log || fail "half a second and a tail of one: '$(cat log)'"
+}
+
+the_ending_chooses_the_format() {
+    for name in a.flac b.FLAC c.ogg d.wav; do
+        render note.mid "out/$name" || return
+    done
+    same "$(head -c 4 out/a.flac)" fLaC a.flac
+    same "$(head -c 4 out/b.FLAC)" fLaC b.FLAC
+    same "$(head -c 4 out/c.ogg)" OggS c.ogg
+    same "$(head -c 4 out/d.wav)" RIFF d.wav
+}
+
+the_depth_is_what_was_asked_for() {
+    for bits in 16 24 32; do
+        render --bits=$bits note.mid out/a.wav || return
+        same "$(field out/a.wav 34 2)" $bits 'bits of a.wav'
+    done
+}
+
+block_size_does_not_change_the_file() {
+    for block in 64 1000 1 65536; do
+        render --block $block song.mid "out/block$block.wav" || return
+        cmp out/block64.wav "out/block$block.wav" || fail "--block 64 and --block $block differ"
+    done
+}
+
+a_quarter_of_a_second_of_silence_is_the_end() {
+    for block in 64 1000; do
+        render --block $block rest.mid "out/rest$block.wav" || return
+        same "$(sed 's/^.*: \(0\.25 s, silent\),.*$/\1/' log)" '0.25 s, silent' "with --block $block"
+    done
+    cmp out/rest64.wav out/rest1000.wav || fail "--block 64 and --block 1000 end elsewhere"
+}
+
+the_tail_is_as_long_as_asked_for() {
+    render --tail 0 note.mid out/short.wav && render --tail 1 note.mid out/long.wav || return
+    more=$(($(size out/long.wav) - $(size out/short.wav)))
+    test $more -eq $((48000 * 8)) || fail "a second more is $more bytes more, expected $((48000 * 8))"
+    render note.mid out/free.wav || return
+    test "$(size out/free.wav)" -le $(($(size out/short.wav) + 10 * 48000 * 8)) || fail "a tail above 10 s"
+}
+
+settings_are_heard() {
+    render --tail 0 note.mid out/a.wav && render --tail 0 --set level=-12 note.mid out/b.wav || return
+    ! cmp -s out/a.wav out/b.wav || fail "--set level=-12 changes nothing"
+    render --tail 0 --set level=-12 --set level=0 note.mid out/c.wav || return
+    cmp out/a.wav out/c.wav || fail "of two settings the last does not win"
+    render --tail 0 --set level=12 note.mid out/d.wav || fail "the range does not have its end"
+}
+
+presets_are_listed_and_found() {
+    "$HOOKE_BIN" render --list-presets >presets 2>errors || fail "--list-presets: $(cat errors)"
+    name=$(head -n 1 presets)
+    test -z "$name" || render --preset "$(echo "$name" | tr '[:upper:]' '[:lower:]')" note.mid out/a.wav
+    refuse 2 "no preset named 'Nobody's'" render --preset "Nobody's" note.mid out/b.wav
+}
+
+broken_songs_are_refused() {
+    : >empty.mid
+    echo 'This is a letter and no song.' >letter.mid
+    head -c 30 note.mid >short.mid
+    refuse 1 'nosuch.mid: No such file or directory' render nosuch.mid out/x.wav
+    refuse 1 'empty.mid: byte 0: found an empty file' render empty.mid out/x.wav
+    refuse 1 'letter.mid: byte 0: found no MThd, expected a Standard MIDI File' render letter.mid out/x.wav
+    refuse 1 'short.mid: track 1, byte 18: found a chunk of 12 bytes' render short.mid out/x.wav
+    refuse 1 'Is a directory' render . out/x.wav
+}
+
+broken_commands_are_refused() {
+    refuse 2 'found no command'
+    refuse 2 "found 'play', expected a command" play
+    refuse 2 "found 'play', expected a command" help play
+    refuse 2 'found no input' render
+    refuse 2 'found no output' render note.mid
+    refuse 2 "found 'third' too" render note.mid out/x.wav third
+    refuse 2 "no option '--loud'" render --loud note.mid out/x.wav
+    refuse 2 '--rate needs a value' render note.mid out/x.wav --rate
+    refuse 2 '--quiet takes no value' render --quiet=yes note.mid out/x.wav
+    for value in 0 -1 nan inf 44100.5 48k '' 1e9; do
+        refuse 2 "--rate: found '$value', expected a whole number" render --rate "$value" note.mid out/x.wav
+    done
+    refuse 2 "--block: found '0', expected a whole number from 1" render --block 0 note.mid out/x.wav
+    refuse 2 "--tail: found '-1', expected a number from 0" render --tail -1 note.mid out/x.wav
+    refuse 2 "--tail: found '1s', expected a number from 0" render --tail 1s note.mid out/x.wav
+    refuse 2 "--bits: found '20', expected 16, 24 or 32" render --bits 20 note.mid out/x.wav
+    refuse 2 'expected .wav, .flac or .ogg' render note.mid out/x.mp3
+    refuse 2 'expected .wav, .flac or .ogg' render note.mid out/wav
+    refuse 2 'expected 16 or 24 for .flac' render --bits 32 note.mid out/x.flac
+}
+
+settings_out_of_range_are_refused() {
+    refuse 2 "level: found '99', expected a number from -60 to 12" render --set level=99 note.mid out/x.wav
+    refuse 2 "level: found 'nan', expected a number" render --set level=nan note.mid out/x.wav
+    refuse 2 "level: found '', expected a number" render --set level= note.mid out/x.wav
+    refuse 2 "masses: found '2.5', expected a whole number" render --set masses=2.5 note.mid out/x.wav
+    refuse 2 "found 'loudness', expected the symbol" render --set loudness=1 note.mid out/x.wav
+    refuse 2 "found 'sounding', expected the symbol" render --set sounding=1 note.mid out/x.wav
+    refuse 2 "found 'level', expected SYMBOL=VALUE" render --set level note.mid out/x.wav
+}
+
+places_that_cannot_be_are_refused() {
+    mkdir -p out/dir.wav
+    refuse 1 'out/dir.wav: Is a directory' render note.mid out/dir.wav
+    refuse 1 'nowhere/x.wav: No such file or directory' render note.mid nowhere/x.wav
+    refuse 1 'plugin <urn:nobody:plays>: not found' render --plugin urn:nobody:plays note.mid out/x.wav
+    refuse 1 "found no URI" render --plugin nobody note.mid out/x.wav
+}
+
+a_failure_leaves_the_old_file_alone() {
+    echo old >out/kept.wav
+    refuse 1 'No such file' render nosuch.mid out/kept.wav
+    refuse 2 'expected a number' render --set level=99 note.mid out/kept.wav
+    test "$(cat out/kept.wav)" = old || fail "the old file is gone"
+    rm out/kept.wav
+}
+
+an_interrupted_render_leaves_nothing() {
+    "$HOOKE_BIN" render --tail 3600 --bits 16 note.mid out/endless.flac >log 2>errors &
+    child=$!
+    tries=0
+    until ls out/endless.flac.*.part >names 2>&1; do
+        tries=$((tries + 1))
+        test $tries -lt 100 || break
+        sleep 0.1
+    done
+    test $tries -lt 100 || fail "no unfinished file to be seen"
+    kill -TERM $child 2>errors
+    wait $child 2>>errors
+    status=$?
+    child=
+    test $status -eq 143 || fail "status $status after SIGTERM, expected 143"
+    for left in out/endless*; do
+        test ! -e "$left" || fail "left $left"
+    done
+}
+
+the_plugin_beside_the_program_is_found() (
+    unset LV2_PATH
+    render --tail 0 note.mid out/a.wav
+)
+
+help_and_version_are_answers() {
+    "$HOOKE_BIN" --version | grep -q '^hooke [^ ]*$' || fail "--version: $("$HOOKE_BIN" --version)"
+    "$HOOKE_BIN" --help | grep -q '^  render ' || fail "--help does not name render"
+    "$HOOKE_BIN" help render | grep -q '^  --preset NAME' || fail "help render does not name --preset"
+    "$HOOKE_BIN" render --help | grep -q '^usage: hooke render' || fail "render --help is no help"
+}
+
+the_demo_is_music() {
+    render --tail 1 --rate 16000 "$HOOKE_SOURCE/doc/demo.mid" out/demo.wav || return
+    grep -q 'peak' log || fail "the demo is silent: '$(cat log)'"
+}
+
+for claim in \
+    writes_a_stereo_wav_of_floats \
+    the_rate_is_what_was_asked_for \
+    the_ending_chooses_the_format \
+    the_depth_is_what_was_asked_for \
+    block_size_does_not_change_the_file \
+    a_quarter_of_a_second_of_silence_is_the_end \
+    the_tail_is_as_long_as_asked_for \
+    settings_are_heard \
+    presets_are_listed_and_found \
+    broken_songs_are_refused \
+    broken_commands_are_refused \
+    settings_out_of_range_are_refused \
+    places_that_cannot_be_are_refused \
+    a_failure_leaves_the_old_file_alone \
+    an_interrupted_render_leaves_nothing \
+    the_plugin_beside_the_program_is_found \
+    help_and_version_are_answers \
+    the_demo_is_music; do
+    echo "$claim"
+    rm -rf out
+    mkdir out
+    $claim || fail "$claim"
+done
+
+test $n_failed -eq 0

@@ -1,0 +1,252 @@
+/* Strings on a bridge gain nothing: whatever they are, however they move, and while they glide. */
+#include "core/voice/bridge.h"
+
+#include "tests/support/bridges.h"
+#include "tests/support/oracle.h"
+#include "tests/support/random.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+enum { DRAWS = 30, STEPS = 100000, MOST_ORDER = BRIDGES_STRINGS * BRIDGES_MASSES + 1 };
+
+static Strung strung;
+
+/* A string at its limit or far from it, a few of them with as many masses as a bend would leave. */
+static void draw_string(Random* random, double rate_hz, bool is_damped) {
+  TuningTarget target = {
+      .rate_hz = rate_hz,
+      .tone = {random_log_between(random, 10.0, 0.49 * rate_hz),
+               is_damped ? random_log_between(random, 1e-3, 10.0) : (double)INFINITY},
+      .loss = is_damped ? random_between(random, 0.0, 1.0) : 0.0,
+      .inharmonicity = random_below(random, 2) ? 0.0 : random_log_between(random, 1e-6, 0.1),
+      .partials = (Partials)random_below(random, 3),
+  };
+  const uint32_t j = strung.n_strings++;
+  const uint32_t most = tuning_max_masses(&target, BRIDGES_MASSES);
+  const uint32_t n_masses = 1 + random_below(random, most > 1 ? most : 1);
+  target.tone.f0_hz *= random_below(random, 3) ? 1.0 : random_between(random, 0.9, 1.0);
+  target.tone.f0_hz = fmin(target.tone.f0_hz, 0.45 * rate_hz);
+  const BridgeHold hold = {bridge_mass(random_log_between(random, 25.0, 4200.0)),
+                           random_between(random, 0.0, 1.0)};
+  strung.n_masses[j] = n_masses;
+  strung.motions[j] = (Motion){.n = n_masses};
+  assert_int_equal(tuning_fit(&target, n_masses, &strung.coefs[j]), STATUS_OK);
+  strung.ties[j] = bridge_tie(strung.coefs[j], n_masses, hold);
+}
+
+static void draw_strung(Random* random, bool is_damped) {
+  static const double rates[] = {8e3, 48e3, 192e3};
+  const double rate_hz = rates[random_below(random, 3)];
+  strung = (Strung){.bridge = bridge_at(rate_hz)};
+  strung.bridge.bare.g *= is_damped;
+  while (strung.n_strings < BRIDGES_STRINGS) {
+    draw_string(random, rate_hz, is_damped);
+  }
+}
+
+static void draw_motion(Random* random) {
+  strung.bridge.y = random_between(random, -1.0, 1.0);
+  strung.bridge.w = random_between(random, -1.0, 1.0);
+  for (uint32_t j = 0; j < strung.n_strings; ++j) {
+    for (uint32_t i = 0; i < strung.n_masses[j]; ++i) {
+      strung.motions[j].x[i] = random_between(random, -1.0, 1.0);
+      strung.motions[j].u[i] = random_between(random, -1.0, 1.0);
+    }
+  }
+}
+
+/* Rounding is some 10⁻¹⁶ of the largest term of H in a step, and walks. */
+static void energy_of_the_whole_never_grows(void** state) {
+  (void)state;
+  Random random = random_start();
+  double worst = 0.0;
+  for (int i = 0; i < DRAWS; ++i) {
+    draw_strung(&random, true);
+    draw_motion(&random);
+    const double start = bridges_energy(&strung);
+    double before = start;
+    assert_true(start > 0.0);
+    for (int n = 0; n < STEPS; ++n) {
+      bridges_step(&strung);
+      if (n % 64 == 0) {
+        const double now = bridges_energy(&strung);
+        worst = fmax(worst, (now - before) / start);
+        before = now;
+      }
+    }
+    assert_true(before < start);
+  }
+  assert_within("growth", worst, 1e-12);
+}
+
+static void energy_is_kept_where_nothing_damps(void** state) {
+  (void)state;
+  Random random = random_start();
+  double worst = 0.0;
+  for (int i = 0; i < DRAWS; ++i) {
+    draw_strung(&random, false);
+    draw_motion(&random);
+    const double start = bridges_energy(&strung);
+    for (int n = 0; n < STEPS; ++n) {
+      bridges_step(&strung);
+    }
+    worst = fmax(worst, fabs(bridges_energy(&strung) / start - 1.0));
+  }
+  assert_within("drift", worst, 1e-10);
+}
+
+/* What a string has given, others have: none of it is lost on the way. */
+static void string_at_rest_takes_from_one_that_moves(void** state) {
+  (void)state;
+  const TuningTarget low = {48e3, {110.0, (double)INFINITY}, 0.0, 0.0, PARTIALS_TRUEST};
+  TuningTarget high = low;
+  high.tone.f0_hz = 220.0;
+  strung = (Strung){.bridge = bridge_at(48e3), .n_strings = 2, .n_masses = {20, 20}};
+  strung.bridge.bare.g = 0.0;
+  for (uint32_t j = 0; j < 2; ++j) {
+    assert_int_equal(tuning_fit(j == 0 ? &low : &high, 20, &strung.coefs[j]), STATUS_OK);
+    strung.ties[j] = bridge_tie(strung.coefs[j], 20, (BridgeHold){0.01, 1.0});
+    strung.motions[j].n = 20;
+  }
+  for (uint32_t i = 0; i < 20; ++i) {
+    strung.motions[1].x[i] = sin((i + 1.0) * acos(-1.0) / 21.0);
+  }
+  double most = 0.0;
+  for (int n = 0; n < STEPS; ++n) {
+    bridges_step(&strung);
+    most = fmax(most, strung.ties[0].weight * motion_energy(&strung.motions[0], strung.coefs[0]) /
+                          bridges_energy(&strung));
+  }
+  assert_true(most > 0.5);
+}
+
+/* In between two wholes that are stable, everything mixed in a straight line. */
+static double mix(double a, double b, double share) {
+  return a + share * (b - a);
+}
+
+static StringCoefs mix_coefs(StringCoefs a, StringCoefs b, double share) {
+  return (StringCoefs){
+      .k1 = mix(a.k1, b.k1, share),
+      .k2 = mix(a.k2, b.k2, share),
+      .z0 = mix(a.z0, b.z0, share),
+      .z1 = mix(a.z1, b.z1, share),
+      .k3 = mix(a.k3, b.k3, share),
+  };
+}
+
+/* Whether K and 4 − 2Z − K are positive. */
+static bool is_positive(void) {
+  static double k[MOST_ORDER * MOST_ORDER];
+  static double z[MOST_ORDER * MOST_ORDER];
+  static double mass[MOST_ORDER];
+  const size_t order = bridges_order(&strung);
+  bridges_forces(&strung, k, z, mass);
+  for (size_t i = 0; i < order * order; ++i) {
+    z[i] = -k[i] - 2.0 * z[i];
+  }
+  for (size_t i = 0; i < order; ++i) {
+    z[i + i * order] += 4.0 * mass[i];
+  }
+  return bridges_complement(order, k) > 0.0 && bridges_complement(order, z) > 0.0;
+}
+
+static void gliding_strings_stay_stable(void** state) {
+  (void)state;
+  Random random = random_start();
+  for (int i = 0; i < 4 * DRAWS; ++i) {
+    draw_strung(&random, true);
+    const Strung from = strung;
+    draw_strung(&random, true);
+    const Strung to = strung;
+    for (double share = 0.0; share <= 1.0; share += 0.125) {
+      for (uint32_t j = 0; j < BRIDGES_STRINGS; ++j) {
+        const uint32_t n_masses = from.n_masses[j];
+        const StringCoefs last =
+            tuning_headroom(to.coefs[j], n_masses) > 0.0 ? to.coefs[j] : from.coefs[j];
+        const BridgeTie a = from.ties[j];
+        const BridgeTie b = bridge_tie(
+            last, n_masses, (BridgeHold){a.weight * (n_masses + 1.0), 0.125 * (j + 1.0)});
+        strung.n_masses[j] = n_masses;
+        strung.coefs[j] = mix_coefs(from.coefs[j], last, share);
+        strung.ties[j] = (BridgeTie){a.weight, mix(a.pull, b.pull, share),
+                                     mix(a.spring, b.spring, share), mix(a.load, b.load, share)};
+      }
+      assert_true(is_positive());
+    }
+  }
+}
+
+/* A string that a key can have at any pitch, on a bridge of any rate, 128 times over. */
+static double draw_headroom(Random* random) {
+  const double rate_hz = random_log_between(random, 100.0, 192e3);
+  TuningTarget target = {
+      rate_hz,
+      {random_log_between(random, 1e-3, 0.499) * rate_hz, random_log_between(random, 1e-3, 1e3)},
+      random_between(random, 0.0, 1.0),
+      random_log_between(random, 1e-6, 0.1),
+      (Partials)random_below(random, 3)};
+  const uint32_t limit = (uint32_t)random_log_between(random, 1.0, 1024.9);
+  const uint32_t n_masses = tuning_max_masses(&target, limit);
+  const double octaves = random_between(random, -69.0, 58.0) / 12.0;
+  target.tone.f0_hz *= random_between(random, 0.7, 1.0); /* A bend that leaves it its masses */
+  StringCoefs coefs = {0};
+  if (n_masses == 0 || tuning_fit(&target, n_masses, &coefs)) {
+    return 1.0;
+  }
+  const Bridge bridge = bridge_at(rate_hz);
+  const BridgeHold hold = {bridge_mass(440.0 * exp2(octaves)), 1.0};
+  return bridge_headroom(&bridge, 128.0 * bridge_tie(coefs, n_masses, hold).load);
+}
+
+static void no_harp_comes_near_the_limit(void** state) {
+  (void)state;
+  Random random = random_start();
+  double least = 1.0;
+  for (int i = 0; i < 20000; ++i) {
+    least = fmin(least, draw_headroom(&random));
+  }
+  print_message("  least headroom %g\n", least);
+  assert_true(least >= 0.1);
+}
+
+/* The lever gives way to nothing that is played: only to what is at the top of the spectrum. */
+static void usual_strings_have_their_whole_lever(void** state) {
+  (void)state;
+  static const double rates[] = {44.1e3, 48e3, 96e3, 192e3};
+  double most = 0.0;
+  for (uint32_t i = 0; i < 4; ++i) {
+    for (uint32_t key = 21; key <= 108; ++key) {
+      for (uint32_t limit = 1; limit <= 1024; limit *= 4) {
+        const double f0_hz = 440.0 * exp2((key - 69.0) / 12.0);
+        const TuningTarget target = {rates[i], {f0_hz, 2.0}, 0.01, 0.0, PARTIALS_TRUEST};
+        const uint32_t n_masses = tuning_max_masses(&target, limit);
+        StringCoefs coefs = {0};
+        assert_int_equal(tuning_fit(&target, n_masses, &coefs), STATUS_OK);
+        const BridgeTie tie = bridge_tie(coefs, n_masses, (BridgeHold){bridge_mass(f0_hz), 1.0});
+        assert_true(tie.pull == coefs.k1);
+        most = fmax(most, tie.load);
+      }
+    }
+  }
+  print_message("  largest load %g\n", most);
+  assert_true(most < 0.1 * BRIDGE_MOST_LOAD);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(energy_of_the_whole_never_grows),
+      cmocka_unit_test(energy_is_kept_where_nothing_damps),
+      cmocka_unit_test(string_at_rest_takes_from_one_that_moves),
+      cmocka_unit_test(gliding_strings_stay_stable),
+      cmocka_unit_test(no_harp_comes_near_the_limit),
+      cmocka_unit_test(usual_strings_have_their_whole_lever),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

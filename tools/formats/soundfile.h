@@ -1,0 +1,51 @@
+/**
+   A stereo sound file that is there when it is whole, and not before.
+*/
+#ifndef HOOKE_TOOLS_FORMATS_SOUNDFILE_H
+#define HOOKE_TOOLS_FORMATS_SOUNDFILE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/** A file being written, under a temporary name beside its own. */
+typedef struct SoundFile SoundFile;
+
+/** @return Why a file of that name and depth cannot be written, or NULL if it can. */
+const char* soundfile_refuse(const char* path, unsigned bits);
+
+/**
+   Begin a file; its kind is by the ending of `path`, in small or capital letters.
+
+   .wav is 32-bit float unless `bits` is 16 or 24; .flac is of 24 bits, or 16; .ogg is Vorbis of
+   quality 0.8.
+   @param rate_hz     Sample rate [Hz], > 0
+   @param bits        16, 24 or 32, if the kind has it; 0 for its usual one
+   @param[out] error  One line, on failure
+   @param error_size  Room in `error` [bytes]
+   @return A file to be finished with soundfile_finish() or soundfile_free(); NULL on failure, and
+   nothing is left behind.
+*/
+SoundFile*
+soundfile_new(const char* path, int rate_hz, unsigned bits, char* error, size_t error_size);
+
+/**
+   Add frames; integers are clipped to full scale, floats are not.
+
+   @param frames  2 × n_frames, left and right in turn
+   @return false when the disk is full, or a WAV file would be longer than 4 GiB.
+*/
+bool soundfile_write(SoundFile* file, const float* frames, uint32_t n_frames);
+
+/**
+   Close a file, give it its name, and free it.
+
+   @return false if that fails; the file is gone then, and one of that name from before is as it
+   was.
+*/
+bool soundfile_finish(SoundFile* file);
+
+/** Give a file up: remove what there is of it, and free it. NULL is fine. */
+void soundfile_free(SoundFile* file);
+
+#endif

@@ -1,0 +1,221 @@
+/**
+   A small offline LV2 host: one instance of one plugin, run block by block.
+
+   `hooke render` is built on it, and so are the tests of the plugins.
+   One thread at a time for everything here. What fails says so by its value, and host_error() has
+   one line for a person. Strings and buffers handed out belong to the host unless said otherwise.
+*/
+#ifndef HOOKE_TOOLS_HOST_HOST_H
+#define HOOKE_TOOLS_HOST_HOST_H
+
+#include "tools/host/host_worker.h"
+
+#include <lilv/lilv.h>
+#include <lv2/atom/atom.h>
+#include <lv2/urid/urid.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/** A host with its plugin. */
+typedef struct Host Host;
+
+/** What a host is made with; fields left zero take the default named. */
+typedef struct {
+  double rate_hz;       ///< Sample rate [Hz], > 0
+  uint32_t max_block;   ///< Most frames a run may have [frames], > 0
+  const char* bundle;   ///< Looked in first, and nowhere else if the plugin is there; or NULL
+  const char* lv2_path; ///< Where to look; NULL for LV2_PATH, or LV2's usual places
+  bool is_bare;         ///< Offer urid:map alone, as the poorest host would
+  bool is_silent;       ///< Drop what the plugin logs instead of writing it to stderr
+} HostConfig;
+
+/** What the Turtle says of a control port. */
+typedef struct {
+  float min;       ///< NAN if not said
+  float max;       ///< NAN if not said
+  float initial;   ///< The default; if not said, what is nearest 0 in the range
+  bool is_integer; ///< lv2:integer, lv2:enumeration or lv2:toggled
+} HostRange;
+
+/* Life cycle */
+
+/**
+   Find a plugin, instantiate it and connect every port: controls hold their defaults, the rest
+   buffers of the host's.
+
+   @param plugin_uri       For example "urn:hooke:strings"
+   @param rate_hz          Sample rate [Hz], > 0
+   @param max_block        Most frames a run may have [frames], > 0
+   @param[out] error       One line saying why, on failure; may be NULL
+   @param error_size       Room in `error` [bytes]
+   @return A host, not yet active, to be freed with host_free(); NULL if the plugin is not found,
+   requires a feature that is not offered, or does not instantiate, or when memory is out.
+*/
+Host* host_new(
+    const char* plugin_uri, double rate_hz, uint32_t max_block, char* error, size_t error_size);
+
+/** host_new() with every choice. */
+Host* host_new_with(const char* plugin_uri,
+                    const HostConfig* config,
+                    char* error,
+                    size_t error_size);
+
+/** Deactivate the plugin if it is active, and free all. NULL is fine. */
+void host_free(Host* host);
+
+/** Call the plugin's activate(), unless it is active. */
+void host_activate(Host* host);
+
+/** Call the plugin's deactivate(), if it is active. */
+void host_deactivate(Host* host);
+
+/**
+   Run the plugin, activating it first if need be; queued events are sent, then the worker is
+   served.
+
+   Before the run every audio output holds NaN, so that a frame not written shows.
+   @param n_frames  [frames], 0 … max_block; more is a failure and nothing is run
+   @return false when memory is out, n_frames is too large, or the plugin wrote past an output's
+   end.
+*/
+bool host_run(Host* host, uint32_t n_frames);
+
+/** @return Why the last failing call failed, one line without a newline; empty if none did. */
+const char* host_error(const Host* host);
+
+/* Ports, by symbol */
+
+/** @return The port's index, or UINT32_MAX if there is none of that symbol. */
+uint32_t host_port_index(const Host* host, const char* symbol);
+
+/** Set a control port, whatever its range. @return false if there is none of that symbol. */
+bool host_set(Host* host, const char* symbol, float value);
+
+/** @return What a control port holds, input or output; NAN if there is none of that symbol. */
+float host_get(const Host* host, const char* symbol);
+
+/** @return false, and `range` untouched, if `symbol` is not a control input. */
+bool host_range(const Host* host, const char* symbol, HostRange* range);
+
+/** Set the port designated lv2:freeWheeling. @return false if there is none. */
+bool host_set_freewheel(Host* host, bool is_freewheeling);
+
+/** @return The number of ports, and the symbol of one by index (NULL if there is none). */
+uint32_t host_n_ports(const Host* host);
+const char* host_port_symbol(const Host* host, uint32_t index);
+
+/** @return true if the port is a control input. */
+bool host_port_is_control_input(const Host* host, uint32_t index);
+
+/** @return The number of audio outputs. */
+uint32_t host_n_outputs(const Host* host);
+
+/** @return What the k-th audio output got in the last run, max_block frames long; NULL if there is
+ * none. */
+const float* host_output(const Host* host, uint32_t k);
+
+/** The same by symbol. */
+const float* host_output_named(const Host* host, const char* symbol);
+
+/** @return The k-th audio input's buffer, zeros unless written to; NULL if there is none. */
+float* host_input(Host* host, uint32_t k);
+
+/* Events */
+
+/**
+   Queue a MIDI message; the bytes are copied.
+
+   @param frame  From the start of the next run [frames]; one beyond the end of that run stays for a
+   later one.
+   @return false when memory is out or no port takes MIDI.
+*/
+bool host_midi(Host* host, uint32_t frame, const uint8_t* bytes, uint32_t size);
+
+/** host_midi() without care: sent last in the next run, at any frame, before the last event or past
+ * the block. */
+bool host_midi_raw(Host* host, int64_t frame, const uint8_t* bytes, uint32_t size);
+
+/** Queue any atom, as host_midi() does; `body` has `size` bytes of the type `type_uri`. */
+bool host_atom(Host* host, uint32_t frame, const char* type_uri, const void* body, uint32_t size);
+
+/** @return What the plugin sent in the last run through its first atom output; NULL if there is no
+ * such port. */
+const LV2_Atom_Sequence* host_notify(const Host* host);
+
+/**
+   Give the atom outputs another size.
+
+   @param capacity  Bytes that the plugin may write behind the atom header; 8192 at first. An
+   allocation of its own.
+   @return false when memory is out.
+*/
+bool host_set_notify_capacity(Host* host, uint32_t capacity);
+
+/** @return The number of a URI, and back; 0 or NULL if there is none. */
+LV2_URID host_map(Host* host, const char* uri);
+const char* host_unmap(const Host* host, LV2_URID urid);
+
+/* Presets and state: host_presets.c, host_state.c */
+
+/** @return How many presets the plugin has; the first call reads them. */
+uint32_t host_n_presets(Host* host);
+
+/** @return Label or URI of the k-th preset in order of labels; NULL if there is none. */
+const char* host_preset_label(Host* host, uint32_t k);
+const char* host_preset_uri(Host* host, uint32_t k);
+
+/**
+   Load a preset: port values and state, the worker offered, as hosts do between runs.
+
+   @param name  Its URI or its label; letter case matters only if two labels differ in nothing else.
+   @return false if there is none; host_error() says so.
+*/
+bool host_preset(Host* host, const char* name);
+
+/** @return A snapshot of control inputs and the plugin's own state, for lilv_state_free(); NULL on
+ * failure. */
+LilvState* host_save_state(Host* host);
+
+/** Put a snapshot back without a worker, as a session load does. */
+void host_restore_state(Host* host, const LilvState* state);
+
+/** Put a snapshot back with the worker offered, as a choice of preset does. */
+void host_restore_preset(Host* host, const LilvState* state);
+
+/** @return `state` as Turtle, to be freed with lilv_free(); NULL on failure. */
+char* host_state_to_string(Host* host, const LilvState* state);
+
+/** @return The state written in `turtle`, for lilv_state_free(); NULL on failure. */
+LilvState* host_state_from_string(Host* host, const char* turtle);
+
+/** Save the present state as a bundle in `dir`, made if need be, files of the state with it.
+ * @return false on failure. */
+bool host_save_state_dir(Host* host, const char* dir);
+
+/** @return The state saved in `dir`, for lilv_state_free(); NULL on failure. */
+LilvState* host_load_state_dir(Host* host, const char* dir);
+
+/* Close to the plugin, for tests that mean harm */
+
+/** @return The instance: lilv_instance_get_handle() and lilv_instance_get_descriptor() lead to the
+ * plugin itself. */
+LilvInstance* host_instance(Host* host);
+
+/** @return What lilv knows of the plugin, and all it knows. */
+const LilvPlugin* host_plugin(const Host* host);
+LilvWorld* host_world(Host* host);
+
+/** @return The features that the plugin was instantiated with, NULL-terminated. */
+const LV2_Feature* const* host_features(const Host* host);
+
+/** @return The worker: set its mode, read its counts. */
+HostWorker* host_worker(Host* host);
+
+/** Connect a port to memory of the caller's, or to NULL. */
+void host_connect(Host* host, uint32_t port_index, void* data);
+
+/** Connect every port to the host's own memory again. */
+void host_reconnect(Host* host);
+
+#endif

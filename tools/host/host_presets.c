@@ -1,0 +1,110 @@
+#define _POSIX_C_SOURCE 200809L
+
+#include "tools/host/host_impl.h"
+
+#include <lv2/presets/presets.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+static int compare_presets(const void* a, const void* b) {
+  const HostPreset* const left = (const HostPreset*)a;
+  const HostPreset* const right = (const HostPreset*)b;
+  const int by_label = strcmp(left->label, right->label);
+  return by_label ? by_label : strcmp(left->uri, right->uri);
+}
+
+static char* copy_string(const LilvNode* node) {
+  const char* const string = lilv_node_as_string(node);
+  return string ? strdup(string) : NULL;
+}
+
+/* A preset without a label is known by its URI. */
+static char* read_label(Host* host, const LilvNode* preset) {
+  (void)lilv_world_load_resource(host->world, preset);
+  LilvNode* const predicate = lilv_new_uri(host->world, LILV_NS_RDFS "label");
+  LilvNode* const label = lilv_world_get(host->world, preset, predicate, NULL);
+  char* const copy = copy_string(label ? label : preset);
+  lilv_node_free(label);
+  lilv_node_free(predicate);
+  return copy;
+}
+
+static void read_presets(Host* host) {
+  LilvNode* const type = lilv_new_uri(host->world, LV2_PRESETS__Preset);
+  LilvNodes* const found = lilv_plugin_get_related(host->plugin, type);
+  lilv_node_free(type);
+  host->has_presets = true;
+  host->n_presets = 0;
+  host->presets = calloc(lilv_nodes_size(found) + 1, sizeof(HostPreset));
+  LILV_FOREACH(nodes, i, found) {
+    const LilvNode* const node = lilv_nodes_get(found, i);
+    HostPreset preset = {copy_string(node), read_label(host, node)};
+    if (host->presets && preset.uri && preset.label) {
+      host->presets[host->n_presets++] = preset;
+    } else {
+      free(preset.uri);
+      free(preset.label);
+    }
+  }
+  lilv_nodes_free(found);
+  if (host->presets && host->n_presets > 1) {
+    qsort(host->presets, host->n_presets, sizeof(HostPreset), compare_presets);
+  }
+}
+
+static const HostPreset* find_preset(Host* host, const char* name) {
+  const uint32_t n_presets = host_n_presets(host);
+  for (uint32_t i = 0; i < n_presets; ++i) {
+    if (!strcmp(host->presets[i].uri, name) || !strcmp(host->presets[i].label, name)) {
+      return &host->presets[i];
+    }
+  }
+  for (uint32_t i = 0; i < n_presets; ++i) {
+    if (!strcasecmp(host->presets[i].label, name)) {
+      return &host->presets[i];
+    }
+  }
+  return NULL;
+}
+
+uint32_t host_n_presets(Host* host) {
+  if (!host->has_presets) {
+    read_presets(host);
+  }
+  return host->n_presets;
+}
+
+const char* host_preset_label(Host* host, uint32_t k) {
+  return k < host_n_presets(host) ? host->presets[k].label : NULL;
+}
+
+const char* host_preset_uri(Host* host, uint32_t k) {
+  return k < host_n_presets(host) ? host->presets[k].uri : NULL;
+}
+
+bool host_preset(Host* host, const char* name) {
+  const HostPreset* const preset = find_preset(host, name);
+  if (!preset) {
+    return host_fail(host, "no preset named '%s' among %u", name, host_n_presets(host));
+  }
+  LilvNode* const uri = lilv_new_uri(host->world, preset->uri);
+  LilvState* const state = lilv_state_new_from_world(host->world, &host->features.map, uri);
+  lilv_node_free(uri);
+  if (!state) {
+    return host_fail(host, "preset '%s': unreadable", name);
+  }
+  host_restore_preset(host, state);
+  lilv_state_free(state);
+  return true;
+}
+
+void host_clear_presets(Host* host) {
+  for (uint32_t i = 0; i < host->n_presets; ++i) {
+    free(host->presets[i].uri);
+    free(host->presets[i].label);
+  }
+  free(host->presets);
+  host->presets = NULL;
+  host->n_presets = 0;
+}
