@@ -19,7 +19,7 @@ Patch strings_ports_patch(const Controls* controls) {
       .partials = (Partials)ports_whole(v[STRINGS_PORT_PARTIALS]),
       .pickup = (double)v[STRINGS_PORT_PICKUP],
       .spread = (double)v[STRINGS_PORT_SPREAD],
-      .sense = (Sense)(v[STRINGS_PORT_SENSE] + 0.5f),
+      .pickup_type = (PickupType)(v[STRINGS_PORT_SENSE] + 0.5f),
       .exciter = (Exciter)(v[STRINGS_PORT_EXCITER] + 0.5f),
       .pluck = (double)v[STRINGS_PORT_PLUCK],
       .hardness = (double)v[STRINGS_PORT_HARDNESS],

@@ -63,7 +63,7 @@ static double slip_of(const Meeting* m, double free) {
   return fmax(0.0, 0.5 * (w - m->v0 + sqrt(fmax(0.0, discriminant))));
 }
 
-static BowGrip grip_of(const Meeting* m) {
+static BowState state_of(const Meeting* m) {
   if (fabs(m->free) <= m->yield * m->force * STATIC) {
     return BOW_STICKS;
   }
@@ -71,12 +71,12 @@ static BowGrip grip_of(const Meeting* m) {
 }
 
 static void settle(Bow* bow, const Meeting* m) {
-  bow->grip = grip_of(m);
-  if (bow->grip == BOW_STICKS) {
+  bow->state = state_of(m);
+  if (bow->state == BOW_STICKS) {
     bow->slip = 0.0;
     bow->friction = -m->free / m->yield;
   } else {
-    const double sign = bow->grip == BOW_SLIPS_BACK ? -1.0 : 1.0;
+    const double sign = bow->state == BOW_SLIPS_BACK ? -1.0 : 1.0;
     const double speed = slip_of(m, sign * m->free);
     bow->slip = sign * speed;
     bow->friction = -sign * friction_at(m, speed);

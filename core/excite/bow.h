@@ -48,7 +48,7 @@ typedef struct {
 } Stroke;
 
 /** What the hair does to the string just now. */
-typedef enum { BOW_STICKS, BOW_SLIPS_BACK, BOW_SLIPS_AHEAD } BowGrip;
+typedef enum { BOW_STICKS, BOW_SLIPS_BACK, BOW_SLIPS_AHEAD } BowState;
 
 /** A value of the bow that goes to its goal in a straight line. */
 typedef struct {
@@ -72,7 +72,7 @@ typedef struct {
   double slip;       /**< v of the last step */
   double friction;   /**< f of the last step, in h²/m */
   uint32_t n_lift;   /**< Steps that it takes to lift it */
-  BowGrip grip;
+  BowState state;
   bool is_lifted;
   bool is_active;
 } Bow;

@@ -40,9 +40,9 @@ static void age(Hammer* hammer) {
   if (hammer->n_left > 0) {
     --hammer->n_left;
   } else {
-    hammer->grip = fmax(0.0, hammer->grip - hammer->fall);
+    hammer->hold = fmax(0.0, hammer->hold - hammer->fall);
   }
-  hammer->is_active = hammer->grip > 0.0 && !is_out_of_reach(hammer);
+  hammer->is_active = hammer->hold > 0.0 && !is_out_of_reach(hammer);
 }
 
 static void compare(Hammer* hammer, const Chain* chain, const Contact* contact) {
@@ -74,7 +74,7 @@ void hammer_start(Hammer* hammer, const Chain* chain, HammerMake make, double ra
       .make = make,
       .position = contact_position(chain, &contact) + fmin(closing, 0.0),
       .velocity = make.velocity,
-      .grip = 1.0,
+      .hold = 1.0,
       .fall = fmin(1.0, 1.0 / (HAMMER_LEAVING_S * rate_hz)),
       .far = reach(chain, &contact, make.place),
       .n_left = (uint32_t)(HAMMER_MOST_S * rate_hz),
@@ -110,7 +110,7 @@ bool hammer_act(Hammer* hammer, Chain* chain) {
   const double free = hammer->position + hammer->velocity - contact_position(chain, &contact);
   const double before = hammer->before;
   Felt felt = hammer->make.felt;
-  felt.stiffness *= hammer->grip * length;
+  felt.stiffness *= hammer->hold * length;
   hammer->before = hammer->now;
   hammer->force = felt_press(&felt, before, free, contact.square + 1.0 / mass, &hammer->now);
   hammer->velocity -= hammer->force / mass;

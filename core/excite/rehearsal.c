@@ -32,7 +32,7 @@ static const double LEAST_PLACE = 0.05;
 /* How far a hammer must fly back, of the amplitude, for the string not to reach it. */
 static const double GONE = 1.0;
 
-/* The finger of exciter_pluck(): half its width, and the least [masses]. */
+/* The finger of pluck_add(): half its width, and the least [masses]. */
 static const double SOFTEST_FINGER = 0.3;
 static const double HARDEST_FINGER = 0.005;
 static const double NARROWEST_FINGER = 2.0;

@@ -6,7 +6,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* The finger of exciter_pluck(): half its width, and the least [masses]. */
+/* The finger of pluck_add(): half its width, and the least [masses]. */
 static const double SOFTEST = 0.3;
 static const double HARDEST = 0.005;
 static const double NARROWEST = 2.0;

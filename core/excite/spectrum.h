@@ -3,7 +3,7 @@
 
    A mode k swings as X_k sin(kπx) sin(ω_k n), and X_k² is what this room tells:
 
-   - a pluck pushes the string over a finger's width (core/excite/exciter.h), the transform of whose
+   - a pluck pushes the string over a finger's width (core/excite/pluck.h), the transform of whose
    raised cosine, cut off at the walls as it may be, has a closed form in the cosines of its two
    edges; of few masses, those under it are summed one by one;
    - a strike's is the spectrum of a hammer's rehearsal (core/excite/rehearsal.h), which falls on as
@@ -20,8 +20,8 @@
 #ifndef HOOKE_CORE_EXCITE_SPECTRUM_H
 #define HOOKE_CORE_EXCITE_SPECTRUM_H
 
-#include "core/excite/exciter.h"
 #include "core/excite/hammer.h"
+#include "core/excite/pluck.h"
 #include "core/excite/rehearsal.h"
 #include "core/harp/patch.h"
 #include "core/string/pole.h"

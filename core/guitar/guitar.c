@@ -26,9 +26,9 @@ struct Guitar {
   GuitarPatch patch; /* With the palm's weight in it */
   double palm;       /* The patch's */
   double weight;     /* What guitar_palm() adds */
-  GuitarString strings[GUITAR_WIRES];
-  GuitarString rests[GUITAR_WIRES]; /* What they did before they were plucked again */
-  void* memory;                     /* Of all strings; owned */
+  GuitarString strings[GUITAR_VOICES];
+  GuitarString rests[GUITAR_VOICES]; /* What they did before they were plucked again */
+  void* memory;                      /* Of all strings; owned */
   GuitarMixer mixer;
 };
 
@@ -80,7 +80,7 @@ static void set_palm(Guitar* guitar) {
 }
 
 static void follow_all(Guitar* guitar, uint32_t n_frames) {
-  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+  for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     guitar_string_follow(&guitar->strings[w], &guitar->patch, n_frames);
   }
 }
@@ -97,14 +97,14 @@ Guitar* guitar_new(double rate_hz) {
   }
   const size_t size = chain_size(GUITAR_MAX_MASSES);
   guitar->rate_hz = rate_hz;
-  guitar->n_gesture = wire_gesture_frames(rate_hz);
-  guitar->memory = aligned_new(CHAIN_ALIGNMENT, 2 * GUITAR_WIRES * size);
+  guitar->n_gesture = voice_gesture_frames(rate_hz);
+  guitar->memory = aligned_new(CHAIN_ALIGNMENT, 2 * GUITAR_VOICES * size);
   if (!guitar->memory) {
     guitar_free(guitar);
     return NULL;
   }
-  memset(guitar->memory, 0, 2 * GUITAR_WIRES * size);
-  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+  memset(guitar->memory, 0, 2 * GUITAR_VOICES * size);
+  for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     char* const memory = (char*)guitar->memory + 2 * w * size;
     guitar_string_init(&guitar->strings[w], rate_hz, w, memory);
     guitar_string_init(&guitar->rests[w], rate_hz, w, memory + size);
@@ -125,7 +125,7 @@ double guitar_rate_hz(const Guitar* guitar) {
 }
 
 void guitar_reset(Guitar* guitar) {
-  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+  for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     guitar_string_reset(&guitar->strings[w]);
     guitar_string_reset(&guitar->rests[w]);
   }
@@ -157,7 +157,7 @@ void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
     GuitarString* const s = string_of(guitar, string, side);
     const double share = side ? guitar->patch.course : 1.0;
-    if (share > 0.0 || s->wire.is_awake) {
+    if (share > 0.0 || s->voice.is_awake) {
       const Pluck own = {
           .place = guitar_string_place(s, &guitar->patch, place),
           .hardness =
@@ -180,7 +180,7 @@ void guitar_hammer(Guitar* guitar, uint32_t string, double fret, double force) {
     const double share = side ? guitar->patch.course : 1.0;
     const double frets = s->motion.fret.goal - fret;
     guitar_string_slide(s, &guitar->patch, fret, guitar->n_gesture);
-    if (share > 0.0 || s->wire.is_awake) {
+    if (share > 0.0 || s->voice.is_awake) {
       const Pluck own = {
           .place = fmin(exp2(-fmax(frets, 0.0) / 12.0), GUITAR_FARTHEST),
           .hardness = HAMMER_HARDNESS,
@@ -238,15 +238,15 @@ void guitar_palm(Guitar* guitar, double weight) {
 }
 
 void guitar_choke(Guitar* guitar) {
-  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+  for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     guitar_string_damp(&guitar->strings[w], &guitar->patch, GUITAR_CHOKED, 0);
     guitar_string_untouch(&guitar->strings[w]);
   }
 }
 
 bool guitar_is_awake(const Guitar* guitar, uint32_t string) {
-  return has(guitar, string) && (guitar->strings[string].wire.is_awake ||
-                                 guitar->strings[string + GUITAR_STRINGS].wire.is_awake);
+  return has(guitar, string) && (guitar->strings[string].voice.is_awake ||
+                                 guitar->strings[string + GUITAR_STRINGS].voice.is_awake);
 }
 
 double guitar_fretted(const Guitar* guitar, uint32_t string) {
@@ -255,12 +255,12 @@ double guitar_fretted(const Guitar* guitar, uint32_t string) {
 
 GuitarReport guitar_report(const Guitar* guitar) {
   GuitarReport report = {.headroom = 1.0};
-  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
-    const Wire* const wire = &guitar->strings[w].wire;
-    if (wire->is_awake) {
+  for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
+    const Voice* const voice = &guitar->strings[w].voice;
+    if (voice->is_awake) {
       ++report.n_strings;
-      report.n_masses += wire->chain.n_masses;
-      report.headroom = fmin(report.headroom, wire->headroom);
+      report.n_masses += voice->chain.n_masses;
+      report.headroom = fmin(report.headroom, voice->headroom);
     }
   }
   return report;

@@ -16,7 +16,7 @@ void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_f
   for (int p = 0; p < GUITAR_PICKUPS; ++p) {
     ramp_to(&mixer->gains[p], (float)patch->pickups[p].gain, n_frames);
   }
-  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+  for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     const double place = place_of(patch, w % GUITAR_STRINGS);
     ramp_to(&mixer->pans[w][0], (float)sqrt(1.0 - place), n_frames);
     ramp_to(&mixer->pans[w][1], (float)sqrt(1.0 + place), n_frames);
@@ -56,7 +56,7 @@ static void run_string(GuitarMixer* mixer,
                        Ramp pans[2],
                        const GuitarPatch* patch,
                        uint32_t n_frames) {
-  const bool is_heard = string->wire.is_awake || rest->wire.is_awake;
+  const bool is_heard = string->voice.is_awake || rest->voice.is_awake;
   if (is_heard) {
     memset(mixer->own, 0, n_frames * sizeof(float));
   }
@@ -82,7 +82,7 @@ static void run_some(GuitarMixer* mixer,
   memset(mixer->sides[0], 0, n_frames * sizeof(float));
   memset(mixer->sides[1], 0, n_frames * sizeof(float));
   ramp_gains(mixer, n_frames);
-  for (uint32_t w = 0; w < GUITAR_WIRES; ++w) {
+  for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     run_string(mixer, &strings[w], &rests[w], mixer->pans[w], patch, n_frames);
   }
   ramp_fill(&mixer->level, n_frames, mixer->own);

@@ -14,14 +14,14 @@
 
 #include <stdint.h>
 
-enum { GUITAR_WIRES = 2 * GUITAR_STRINGS /**< The strings, and then those beside them */ };
+enum { GUITAR_VOICES = 2 * GUITAR_STRINGS /**< The strings, and then those beside them */ };
 
 /** Zero is silent. */
 typedef struct {
   Ramp level;
   Ramp gains[GUITAR_PICKUPS];
-  Ramp pans[GUITAR_WIRES][2]; /**< Left and right */
-  GuitarGains now;            /**< Of the frames that are run */
+  Ramp pans[GUITAR_VOICES][2]; /**< Left and right */
+  GuitarGains now;             /**< Of the frames that are run */
   float own[GUITAR_MIX_FRAMES];
   float sides[2][GUITAR_MIX_FRAMES];
 } GuitarMixer;
@@ -29,7 +29,7 @@ typedef struct {
 /** Go to what the patch says in `n_frames`. */
 void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_frames);
 
-/** Run all GUITAR_WIRES strings, and what is left of each, for `n_frames`, and write what is heard
+/** Run all GUITAR_VOICES strings, and what is left of each, for `n_frames`, and write what is heard
  * to `left` and `right`. */
 void guitar_mixer_run(GuitarMixer* mixer,
                       GuitarString* strings,

@@ -1,12 +1,12 @@
 #include "core/guitar/guitar_string.h"
 
-#include "core/excite/touch.h"
+#include "core/excite/finger.h"
 #include "core/guitar/guitar_tone.h"
 
 #include <math.h>
 
 /* Time in which a choked string has died away far enough for another to take its place [s]. */
-static const double LEFT_S = 5.0 * WIRE_CHOKE_S;
+static const double LEFT_S = 5.0 * VOICE_CHOKE_S;
 
 static uint32_t least(uint32_t a, uint32_t b) {
   return a < b ? a : b;
@@ -14,17 +14,17 @@ static uint32_t least(uint32_t a, uint32_t b) {
 
 /* A pitch that cannot be had chokes it at the one that it has. */
 static void retune(GuitarString* string, const GuitarPatch* patch, uint32_t n_glide) {
-  Wire* const wire = &string->wire;
+  Voice* const voice = &string->voice;
   TuningTarget target = guitar_tone(string, patch);
-  if (wire->is_awake && !wire_retune(wire, &target, n_glide)) {
+  if (voice->is_awake && !voice_retune(voice, &target, n_glide)) {
     string->damper = GUITAR_CHOKED;
     target = guitar_tone(string, patch);
-    target.tone.f0_hz = wire->f0_hz;
-    if (!wire_retune(wire, &target, n_glide)) {
-      wire_sleep(wire);
+    target.tone.f0_hz = voice->f0_hz;
+    if (!voice_retune(voice, &target, n_glide)) {
+      voice_sleep(voice);
     }
   }
-  wire_choke(wire, string->damper == GUITAR_CHOKED);
+  voice_choke(voice, string->damper == GUITAR_CHOKED);
 }
 
 /* Masses between the bridge and where it will be stopped. */
@@ -35,19 +35,19 @@ static uint32_t masses_wanted(const GuitarString* string, const GuitarPatch* pat
 /* What becomes shorter has fewer masses from the beginning of its way on. */
 static void shorten(GuitarString* string, const GuitarPatch* patch) {
   const uint32_t n_masses = masses_wanted(string, patch);
-  if (string->wire.is_awake && n_masses < string->wire.chain.n_masses) {
+  if (string->voice.is_awake && n_masses < string->voice.chain.n_masses) {
     const TuningTarget target = guitar_tone(string, patch);
-    wire_mesh(&string->wire, &target, n_masses);
+    voice_mesh(&string->voice, &target, n_masses);
   }
 }
 
 /* And what becomes longer has more at its end. */
 static void lengthen(GuitarString* string, const GuitarPatch* patch) {
-  if (string->wire.is_awake && string->wire.chain.n_masses < masses_wanted(string, patch)) {
+  if (string->voice.is_awake && string->voice.chain.n_masses < masses_wanted(string, patch)) {
     const TuningTarget target = guitar_tone(string, patch);
     const uint32_t n_masses = tuning_max_masses(&target, masses_wanted(string, patch));
-    if (n_masses > string->wire.chain.n_masses) {
-      wire_mesh(&string->wire, &target, n_masses);
+    if (n_masses > string->voice.chain.n_masses) {
+      voice_mesh(&string->voice, &target, n_masses);
     }
   }
 }
@@ -95,13 +95,13 @@ static void places_of(const GuitarString* string, const GuitarPatch* patch, doub
 static bool restring(GuitarString* string, const GuitarPatch* patch) {
   const TuningTarget open = guitar_tone_open(string, patch);
   const uint32_t n_open =
-      tuning_max_masses(&open, least(patch->string.max_masses, string->wire.capacity));
+      tuning_max_masses(&open, least(patch->string.max_masses, string->voice.capacity));
   double places[GUITAR_PICKUPS];
   string->n_open = n_open > 0 ? n_open : 1;
   const TuningTarget target = guitar_tone(string, patch);
   places_of(string, patch, places);
   guitar_reading_set(&string->reading, places);
-  return wire_string(&string->wire, &target, masses_wanted(string, patch));
+  return voice_string(&string->voice, &target, masses_wanted(string, patch));
 }
 
 /* Plucked at the beginning of a gesture, it is heard at its end: on the way the square of its
@@ -112,14 +112,14 @@ static double gesture_gain(const GuitarString* string) {
 }
 
 void guitar_string_init(GuitarString* string, double rate_hz, uint32_t phase, void* memory) {
-  *string = (GuitarString){.n_gesture = wire_gesture_frames(rate_hz)};
-  wire_init(&string->wire, rate_hz, phase, memory, GUITAR_MAX_MASSES);
+  *string = (GuitarString){.n_gesture = voice_gesture_frames(rate_hz)};
+  voice_init(&string->voice, rate_hz, phase, memory, GUITAR_MAX_MASSES);
   string->n_fade = string->n_gesture;
 }
 
 void guitar_string_reset(GuitarString* string) {
-  wire_sleep(&string->wire);
-  wire_choke(&string->wire, false);
+  voice_sleep(&string->voice);
+  voice_choke(&string->voice, false);
   string->motion = (GuitarMotion){0};
   ramp_init(&string->touch, 0.0f);
   string->damper = GUITAR_RINGING;
@@ -139,7 +139,7 @@ double guitar_string_place(const GuitarString* string, const GuitarPatch* patch,
 
 void guitar_string_follow(GuitarString* string, const GuitarPatch* patch, uint32_t n_glide) {
   string->n_fade = n_glide > string->n_gesture ? n_glide : string->n_gesture;
-  if (string->wire.is_awake && guitar_motion_is_still(&string->motion)) {
+  if (string->voice.is_awake && guitar_motion_is_still(&string->motion)) {
     shorten(string, patch);
     retune(string, patch, string->n_fade);
     string->is_moving = true;
@@ -152,7 +152,7 @@ void guitar_string_slide(GuitarString* string,
                          const GuitarPatch* patch,
                          double fret,
                          uint32_t n_frames) {
-  const bool is_at_once = !string->wire.is_awake && n_frames <= string->n_gesture;
+  const bool is_at_once = !string->voice.is_awake && n_frames <= string->n_gesture;
   halt(string);
   guitar_line_to(&string->motion.fret, fret, is_at_once ? 0 : n_frames);
   start(string, patch);
@@ -162,7 +162,7 @@ void guitar_string_bend(GuitarString* string,
                         const GuitarPatch* patch,
                         double semitones,
                         uint32_t n_frames) {
-  const bool is_at_once = !string->wire.is_awake && n_frames <= string->n_gesture;
+  const bool is_at_once = !string->voice.is_awake && n_frames <= string->n_gesture;
   halt(string);
   guitar_line_to(&string->motion.bend, semitones, is_at_once ? 0 : n_frames);
   start(string, patch);
@@ -179,16 +179,16 @@ void guitar_string_vibrato(GuitarString* string,
 }
 
 void guitar_string_leave(GuitarString* string, GuitarString* rest, const GuitarPatch* patch) {
-  const bool is_taken = rest->wire.is_awake && rest->wire.n_choked < LEFT_S * rest->wire.rate_hz;
-  if (!string->wire.is_awake || is_taken) {
+  const bool is_taken = rest->voice.is_awake && rest->voice.n_choked < LEFT_S * rest->voice.rate_hz;
+  if (!string->voice.is_awake || is_taken) {
     return;
   }
-  Wire idle = rest->wire;
+  Voice idle = rest->voice;
   GuitarLine* const fret = &string->motion.fret;
-  wire_sleep(&idle);
+  voice_sleep(&idle);
   halt(string);
   *rest = *string;
-  string->wire = idle;
+  string->voice = idle;
   guitar_line_to(&rest->motion.fret, fret->value, 0);
   rest->n_touched = 0;
   ramp_init(&rest->touch, 0.0f);
@@ -203,9 +203,9 @@ void guitar_string_pluck(GuitarString* string, const GuitarPatch* patch, Pluck p
   if (string->damper != GUITAR_RINGING) {
     guitar_string_damp(string, patch, GUITAR_RINGING, 0);
   }
-  if (string->wire.is_awake || restring(string, patch)) {
+  if (string->voice.is_awake || restring(string, patch)) {
     pluck.amplitude *= gesture_gain(string);
-    wire_pluck(&string->wire, pluck);
+    voice_pluck(&string->voice, pluck);
   }
 }
 
@@ -218,7 +218,7 @@ void guitar_string_damp(GuitarString* string,
   }
   string->damper = damper;
   string->n_damped = n_frames;
-  wire_choke(&string->wire, damper == GUITAR_CHOKED);
+  voice_choke(&string->voice, damper == GUITAR_CHOKED);
   guitar_string_follow(string, patch, string->n_gesture);
 }
 
@@ -236,8 +236,8 @@ void guitar_string_untouch(GuitarString* string) {
 static void touch(GuitarString* string) {
   const float coming = ramp_next(&string->touch);
   const double going = fmin(1.0, (double)string->n_touched / string->n_gesture);
-  if (string->wire.is_awake) {
-    touch_act(&string->wire.chain, string->touched, going * (double)coming);
+  if (string->voice.is_awake) {
+    finger_act(&string->voice.chain, string->touched, going * (double)coming);
   }
   if (--string->n_touched == 0) {
     ramp_init(&string->touch, 0.0f);
@@ -247,7 +247,7 @@ static void touch(GuitarString* string) {
 /* Frames until something happens to it. */
 static uint32_t stretch(const GuitarString* string) {
   uint32_t n = guitar_reading_stretch(&string->reading);
-  n = string->wire.is_awake ? least(n, wire_stretch(&string->wire)) : n;
+  n = string->voice.is_awake ? least(n, voice_stretch(&string->voice)) : n;
   n = string->is_moving ? least(n, string->n_until_piece) : n;
   n = string->n_damped > 0 ? least(n, string->n_damped) : n;
   return string->n_touched > 0 ? 1 : n;
@@ -258,8 +258,8 @@ static void pass(GuitarString* string, const GuitarPatch* patch, uint32_t n_fram
   if (string->n_touched > 0) {
     touch(string);
   }
-  if (string->wire.is_awake) {
-    wire_pass(&string->wire, n_frames);
+  if (string->voice.is_awake) {
+    voice_pass(&string->voice, n_frames);
   }
   if (string->n_damped > 0) {
     string->n_damped -= n_frames;
@@ -278,14 +278,14 @@ void guitar_string_run(GuitarString* string,
     if (string->is_moving && string->n_until_piece == 0) {
       begin_piece(string, patch);
     }
-    if (string->wire.is_awake && string->reading.fade.n_left == 0) {
+    if (string->voice.is_awake && string->reading.fade.n_left == 0) {
       double places[GUITAR_PICKUPS];
       places_of(string, patch, places);
       guitar_reading_move(&string->reading, places, string->n_fade);
     }
     const uint32_t n = least(n_frames - done, stretch(string));
-    if (string->wire.is_awake) {
-      guitar_reading_run(&string->reading, &string->wire.chain, gains, done, n, out + done);
+    if (string->voice.is_awake) {
+      guitar_reading_run(&string->reading, &string->voice.chain, gains, done, n, out + done);
     }
     pass(string, patch, n);
     done += n;

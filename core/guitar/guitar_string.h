@@ -10,7 +10,7 @@
 #include "core/guitar/guitar_motion.h"
 #include "core/guitar/guitar_patch.h"
 #include "core/guitar/guitar_reading.h"
-#include "core/voice/wire.h"
+#include "core/voice/voice.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -33,7 +33,7 @@ typedef enum {
 
 /** Zero is one that is asleep and has no memory. */
 typedef struct {
-  Wire wire;
+  Voice voice;
   GuitarMotion motion; /**< As it will be at the end of its piece, while it is moving */
   GuitarMotion begun;  /**< As it was at the beginning of it */
   GuitarReading reading;

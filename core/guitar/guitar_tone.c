@@ -16,7 +16,7 @@ free_target(const GuitarString* string, const GuitarPatch* patch, double note, d
   const Patch* const p = &patch->string;
   const double damping_per_s = p->damping_per_s * exp2(p->tracking * (note - 69.0) / 12.0);
   return (TuningTarget){
-      .rate_hz = string->wire.rate_hz,
+      .rate_hz = string->voice.rate_hz,
       .tone = {.f0_hz = f0_hz, .tau_s = 1.0 / damping_per_s},
       .loss = p->loss,
       .inharmonicity = p->inharmonicity,
@@ -37,7 +37,7 @@ damped_target(const GuitarString* string, const GuitarPatch* patch, TuningTarget
     target = tuning_damped(target, tau_s, GUITAR_PALM_LOSS);
   }
   if (string->damper != GUITAR_RINGING) {
-    const double hand_s = string->damper == GUITAR_CHOKED ? WIRE_CHOKE_S : patch->string.release_s;
+    const double hand_s = string->damper == GUITAR_CHOKED ? VOICE_CHOKE_S : patch->string.release_s;
     target = tuning_damped(target, fmin(target.tone.tau_s, hand_s), 0.0);
   }
   return target;

@@ -78,7 +78,7 @@ Harp* harp_new(double rate_hz) {
     return NULL;
   }
   harp->rate_hz = rate_hz;
-  harp->n_gesture = wire_gesture_frames(rate_hz);
+  harp->n_gesture = voice_gesture_frames(rate_hz);
   harp->memory = aligned_new(CHAIN_ALIGNMENT, HARP_STRINGS * chain_size(CHAIN_MAX_MASSES));
   if (!harp->memory) {
     harp_free(harp);
@@ -180,7 +180,7 @@ static void raise_key(Harp* harp, HarpString* string) {
   string->is_down = false;
   string->leaned_on = 0.0;
   harp_string_lift(string);
-  if (was_leaned_on || string->lift != lift_of(harp, string) || grip_is_on(&string->grip)) {
+  if (was_leaned_on || string->lift != lift_of(harp, string) || tie_is_on(&string->tie)) {
     retune(harp, string, harp->n_gesture);
   }
 }
@@ -289,11 +289,11 @@ void harp_all_sound_off(Harp* harp) {
 HarpReport harp_report(const Harp* harp) {
   HarpReport report = {.headroom = harp_bridge_headroom(harp)};
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    const Wire* const wire = &harp->strings[i].wire;
-    if (wire->is_awake) {
+    const Voice* const voice = &harp->strings[i].voice;
+    if (voice->is_awake) {
       ++report.n_strings;
-      report.n_masses += wire->chain.n_masses;
-      report.headroom = fmin(report.headroom, wire->headroom);
+      report.n_masses += voice->chain.n_masses;
+      report.headroom = fmin(report.headroom, voice->headroom);
     }
   }
   return report;

@@ -47,7 +47,7 @@ typedef struct {
 typedef struct {
   StringCoefs coefs;
   Spectrum spectrum;
-  Sense sense;
+  PickupType pickup_type;
   uint32_t n_sides;
   double weights[4];
   double rate_hz;
@@ -96,7 +96,7 @@ static double square_read(const Scene* scene, const double* sines, double a) {
     const double read = w[0] * sines[2 * side] + w[1] * sines[2 * side + 1];
     square += read * read;
   }
-  return scene->both * square * (scene->sense == SENSE_VELOCITY ? a : 1.0);
+  return scene->both * square * (scene->pickup_type == PICKUP_VELOCITY ? a : 1.0);
 }
 
 /* Add `n` modes that are all as `k` is. */
@@ -178,13 +178,13 @@ static Spectrum spectrum_for(const Patch* patch, const HarpBalance* string, Pluc
 static void set_taps(Scene* scene, Turns* turns, const Patch* patch, const HarpBalance* string) {
   const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
   HarpPickups pickups = {0};
-  harp_pickups_set(&pickups, (HarpPlaces){patch->sense, patch->pickup, patch->spread});
+  harp_pickups_set(&pickups, (HarpPlaces){patch->pickup_type, patch->pickup, patch->spread});
   const HarpReading reading = harp_pickups_reading(&pickups);
   scene->n_sides = reading.n_sides;
   scene->both = reading.n_sides == 1 ? 2.0 : 1.0;
   for (uint32_t side = 0; side < reading.n_sides; ++side) {
     const HarpEar* const ear = &reading.ears[side];
-    const ChainTap tap = pickup_tap_sensing(ear->sense, string->n_masses, ear->place,
+    const ChainTap tap = pickup_tap_of_type(ear->pickup_type, string->n_masses, ear->place,
                                             2.0 * PI * f0_hz / string->target.rate_hz, ear->is_far);
     for (uint32_t i = 2 * side; i < 2 * side + 2; ++i) {
       turns->angle[TAPPED + i] = turns->angle[STRING] * (tap.mass[i % 2] + 1.0);
@@ -194,7 +194,7 @@ static void set_taps(Scene* scene, Turns* turns, const Patch* patch, const HarpB
 }
 
 double harp_balance_gain(const Patch* patch, const HarpBalance* string, Pluck pluck) {
-  Scene scene = {.sense = patch->sense, .rate_hz = string->target.rate_hz};
+  Scene scene = {.pickup_type = patch->pickup_type, .rate_hz = string->target.rate_hz};
   Turns turns = {.angle = {PI / (string->n_masses + 1.0)}};
   if (tuning_solve(&string->target, string->n_masses, &scene.coefs)) {
     return 1.0;

@@ -14,7 +14,7 @@
 #ifndef HOOKE_CORE_HARP_HARP_BALANCE_H
 #define HOOKE_CORE_HARP_HARP_BALANCE_H
 
-#include "core/excite/exciter.h"
+#include "core/excite/pluck.h"
 #include "core/harp/patch.h"
 #include "core/string/tuning.h"
 

@@ -42,7 +42,7 @@ static void read_tie(HarpBridgeEnd* end, const BridgeTie* tie) {
   end->spring = tie->spring;
 }
 
-static HarpBridgeEnd end_of(const Chain* chain, const Grip* grip) {
+static HarpBridgeEnd end_of(const Chain* chain, const Tie* tie) {
   const size_t offset = chain_numbers_offset(chain, chain->n_masses - 1);
   const bool is_double = chain->numbers == CHAIN_DOUBLE;
   HarpBridgeEnd end = {
@@ -50,7 +50,7 @@ static HarpBridgeEnd end_of(const Chain* chain, const Grip* grip) {
       .d = is_double ? (double*)chain->cells + offset : NULL,
       .to_u = chain->loops->n_lanes,
   };
-  read_tie(&end, &grip->now);
+  read_tie(&end, &tie->now);
   return end;
 }
 
@@ -72,11 +72,11 @@ static void prepare(Harp* harp, uint32_t n_taps) {
   bridge->is_gliding = false;
   bridge->spring = 0.0;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
-    const Grip* const grip = &harp->awake[i]->grip;
+    const Tie* const tie = &harp->awake[i]->tie;
     add_work(bridge, i, &harp->parts[i], n_taps);
-    bridge->ends[i] = end_of(harp->parts[i].chain, grip);
-    bridge->is_gliding = bridge->is_gliding || grip->n_gliding > 0;
-    bridge->spring += grip->now.spring;
+    bridge->ends[i] = end_of(harp->parts[i].chain, tie);
+    bridge->is_gliding = bridge->is_gliding || tie->n_gliding > 0;
+    bridge->spring += tie->now.spring;
   }
 }
 
@@ -84,10 +84,10 @@ static void glide(Harp* harp) {
   HarpBridge* const bridge = &harp->bridge;
   bridge->spring = 0.0;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
-    Grip* const grip = &harp->awake[i]->grip;
-    grip_advance(grip);
-    read_tie(&bridge->ends[i], &grip->now);
-    bridge->spring += grip->now.spring;
+    Tie* const tie = &harp->awake[i]->tie;
+    tie_advance(tie);
+    read_tie(&bridge->ends[i], &tie->now);
+    bridge->spring += tie->now.spring;
   }
 }
 
@@ -168,7 +168,7 @@ uint32_t harp_bridge_stretch(const Harp* harp, uint32_t n_frames) {
   }
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
     const HarpString* const string = harp->awake[i];
-    const uint32_t n_gliding = string->grip.n_gliding;
+    const uint32_t n_gliding = string->tie.n_gliding;
     n_frames = least(n_frames, harp_string_stretch(string));
     n_frames = n_gliding > 0 ? least(n_frames, n_gliding) : n_frames;
   }
@@ -202,14 +202,14 @@ uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps, float* 
 static void lend(Harp* harp) {
   double sum = 0.0;
   for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
-    const double given = harp->awake[i]->wire.given;
-    sum += harp->awake[i]->grip.hold.mass * given * given;
+    const double given = harp->awake[i]->voice.given;
+    sum += harp->awake[i]->tie.hold.mass * given * given;
   }
   for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
-    Wire* const wire = &harp->awake[i]->wire;
-    const double mass = harp->awake[i]->grip.hold.mass;
+    Voice* const voice = &harp->awake[i]->voice;
+    const double mass = harp->awake[i]->tie.hold.mass;
     if (mass > 0.0) {
-      wire->lent = fmax(wire->lent, sqrt(sum / mass));
+      voice->lent = fmax(voice->lent, sqrt(sum / mass));
     }
   }
 }
@@ -218,18 +218,18 @@ static void lend(Harp* harp) {
 static void keep(Harp* harp) {
   HarpBridge* const bridge = &harp->bridge;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
-    bridge->loudest = fmax(bridge->loudest, harp->awake[i]->wire.loudest);
+    bridge->loudest = fmax(bridge->loudest, harp->awake[i]->voice.loudest);
   }
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
-    Wire* const wire = &harp->awake[i]->wire;
-    const bool is_open = harp->awake[i]->grip.hold.lever > 0.0;
-    wire->loudest = fmax(wire->loudest, bridge->loudest);
-    wire->is_kept = is_open && bridge->level > RESTING * bridge->loudest;
+    Voice* const voice = &harp->awake[i]->voice;
+    const bool is_open = harp->awake[i]->tie.hold.lever > 0.0;
+    voice->loudest = fmax(voice->loudest, bridge->loudest);
+    voice->is_kept = is_open && bridge->level > RESTING * bridge->loudest;
   }
 }
 
 static bool is_waiting(const HarpString* string) {
-  return !string->wire.is_awake && string->lift >= LIFTED && !isnan(string->semitones);
+  return !string->voice.is_awake && string->lift >= LIFTED && !isnan(string->semitones);
 }
 
 static void wake(Harp* harp) {
@@ -271,8 +271,8 @@ double harp_bridge_headroom(const Harp* harp) {
   bool is_tied = false;
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     const HarpString* const string = &harp->strings[i];
-    if (string->wire.is_awake && grip_is_on(&string->grip)) {
-      load += fmax(string->grip.now.load, string->grip.goal.load);
+    if (string->voice.is_awake && tie_is_on(&string->tie)) {
+      load += fmax(string->tie.now.load, string->tie.goal.load);
       is_tied = true;
     }
   }

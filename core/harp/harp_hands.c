@@ -28,10 +28,10 @@ static HarpString* find_guest(Harp* harp, uint32_t key) {
   HarpString* found = NULL;
   for (uint32_t i = HARP_KEYS; i < HARP_STRINGS; ++i) {
     HarpString* const guest = &harp->strings[i];
-    if (!guest->is_down && guest->wire.is_awake && guest->key == key) {
+    if (!guest->is_down && guest->voice.is_awake && guest->key == key) {
       return guest;
     }
-    if (!guest->is_down && !guest->wire.is_awake && !found) {
+    if (!guest->is_down && !guest->voice.is_awake && !found) {
       found = guest;
     }
   }

@@ -15,7 +15,7 @@ static const double SILENT_REST_HZ = 100.0;
 static const double LEAST_REST = 1e-7;
 
 HarpPlaces harp_mixer_places(const Patch* patch) {
-  return (HarpPlaces){patch->sense, patch->pickup, patch->spread};
+  return (HarpPlaces){patch->pickup_type, patch->pickup, patch->spread};
 }
 
 /* Velocities are weighed as if a key were in its usual tune: weights must not move while it rings.
@@ -26,16 +26,17 @@ static double angle_of(const Harp* harp, const HarpString* string) {
 }
 
 static ChainTap tap_of(const Harp* harp, const HarpString* string, const HarpEar* ear) {
-  const uint32_t n_masses = string->wire.chain.n_masses;
-  if (ear->sense == SENSE_DISPLACEMENT) {
+  const uint32_t n_masses = string->voice.chain.n_masses;
+  if (ear->pickup_type == PICKUP_DISPLACEMENT) {
     return pickup_tap(n_masses, ear->place);
   }
-  return pickup_tap_sensing(ear->sense, n_masses, ear->place, angle_of(harp, string), ear->is_far);
+  return pickup_tap_of_type(ear->pickup_type, n_masses, ear->place, angle_of(harp, string),
+                            ear->is_far);
 }
 
 static void add_part(Harp* harp, uint32_t i, HarpString* string, const HarpReading* reading) {
   ChainPart* const part = &harp->parts[i];
-  part->chain = &string->wire.chain;
+  part->chain = &string->voice.chain;
   for (uint32_t t = 0; t < reading->n_taps; ++t) {
     part->taps[t] = tap_of(harp, string, &reading->ears[t]);
   }
@@ -47,9 +48,9 @@ static uint32_t
 gather_some(Harp* harp, uint32_t n_parts, bool are_tied, const HarpReading* reading) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (string->wire.is_awake && grip_is_on(&string->grip) == are_tied) {
-      chain_share(&string->wire.chain, are_tied);
-      string->wire.is_kept = string->wire.is_kept && are_tied;
+    if (string->voice.is_awake && tie_is_on(&string->tie) == are_tied) {
+      chain_share(&string->voice.chain, are_tied);
+      string->voice.is_kept = string->voice.is_kept && are_tied;
       add_part(harp, n_parts++, string, reading);
     }
   }
@@ -148,9 +149,9 @@ static uint32_t stretch_of(const HarpString* string) {
 /* Run a string that something happens to on the way. */
 static void run_in_pieces(Harp* harp, uint32_t i, uint32_t n_frames, uint32_t n_taps, float** out) {
   HarpString* const string = harp->awake[i];
-  for (uint32_t done = 0; done < n_frames && string->wire.is_awake;) {
+  for (uint32_t done = 0; done < n_frames && string->voice.is_awake;) {
     const uint32_t n = least(n_frames - done, stretch_of(string));
-    const uint32_t n_masses = string->wire.chain.n_masses;
+    const uint32_t n_masses = string->voice.chain.n_masses;
     float* rest[CHAIN_MAX_TAPS];
     for (uint32_t t = 0; t < n_taps; ++t) {
       rest[t] = out[t] + done;
@@ -159,7 +160,7 @@ static void run_in_pieces(Harp* harp, uint32_t i, uint32_t n_frames, uint32_t n_
     harp_string_act(string);
     harp_string_pass(string, &harp->patch, n);
     /* A swing may have taken some of its masses, and with them the places where it is read. */
-    if (string->wire.chain.n_masses != n_masses) {
+    if (string->voice.chain.n_masses != n_masses) {
       add_part(harp, i, string, &harp->reading);
     }
     done += n;
@@ -199,7 +200,7 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
   run_strings(harp, n_parts, n, reading.n_taps, out);
   harp_bridge_pass(harp, n);
   for (uint32_t t = 0; t < reading.n_taps; ++t) {
-    if (reading.ears[t].sense == SENSE_VELOCITY) {
+    if (reading.ears[t].pickup_type == PICKUP_VELOCITY) {
       pickup_differentiate(out[t], n, &harp->before[t]);
     }
   }

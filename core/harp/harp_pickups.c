@@ -10,9 +10,11 @@ static double fold(double place) {
 
 static void add_places(HarpReading* reading, HarpPlaces places) {
   const double half = reading->n_sides == 2 ? 0.5 * places.spread : 0.0;
-  reading->ears[reading->n_taps++] = (HarpEar){places.sense, fold(places.place - half), false};
+  reading->ears[reading->n_taps++] =
+      (HarpEar){places.pickup_type, fold(places.place - half), false};
   if (reading->n_sides == 2) {
-    reading->ears[reading->n_taps++] = (HarpEar){places.sense, fold(places.place + half), true};
+    reading->ears[reading->n_taps++] =
+        (HarpEar){places.pickup_type, fold(places.place + half), true};
   }
 }
 
@@ -22,7 +24,7 @@ void harp_pickups_set(HarpPickups* pickups, HarpPlaces places) {
 }
 
 static bool is_same(HarpPlaces a, HarpPlaces b) {
-  return a.sense == b.sense && a.place == b.place && a.spread == b.spread;
+  return a.pickup_type == b.pickup_type && a.place == b.place && a.spread == b.spread;
 }
 
 void harp_pickups_move(HarpPickups* pickups, HarpPlaces places, uint32_t n_frames) {
@@ -52,7 +54,7 @@ bool harp_pickups_are_same(const HarpReading* a, const HarpReading* b) {
   for (uint32_t t = 0; are_same && t < a->n_taps; ++t) {
     const HarpEar* const x = &a->ears[t];
     const HarpEar* const y = &b->ears[t];
-    are_same = x->sense == y->sense && x->place == y->place && x->is_far == y->is_far;
+    are_same = x->pickup_type == y->pickup_type && x->place == y->place && x->is_far == y->is_far;
   }
   return are_same;
 }

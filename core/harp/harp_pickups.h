@@ -18,7 +18,7 @@
 
 /** Where strings are read, and what is heard of them. */
 typedef struct {
-  Sense sense;
+  PickupType pickup_type;
   double place;  /**< Fraction of the length, 0 to 1 */
   double spread; /**< Between left and right, 0 to 0.5; 0: one pickup.  Past an end, folded back */
 } HarpPlaces;
@@ -32,7 +32,7 @@ typedef struct {
 
 /** One tap of every string. */
 typedef struct {
-  Sense sense;
+  PickupType pickup_type;
   double place; /**< Fraction of the length, 0 to 1 */
   bool is_far;  /**< On the right */
 } HarpEar;

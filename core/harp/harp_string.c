@@ -32,10 +32,10 @@ bool harp_string_is_touched(const HarpString* string) {
 /* What is at it sees that something else has moved it. */
 static void look(HarpString* string) {
   if (string->hammer.is_active) {
-    hammer_look(&string->hammer, &string->wire.chain);
+    hammer_look(&string->hammer, &string->voice.chain);
   }
   if (string->bow.is_active) {
-    bow_look(&string->bow, &string->wire.chain);
+    bow_look(&string->bow, &string->voice.chain);
   }
 }
 
@@ -48,11 +48,11 @@ static void leave(HarpString* string) {
 
 /* A pluck gives a ringing string the masses back that a bend took. */
 static void mesh_for_pluck(HarpString* string, const Patch* patch) {
-  if (string->wire.chain.n_masses < string->n_strung) {
+  if (string->voice.chain.n_masses < string->n_strung) {
     const TuningTarget target = harp_target(string, patch, harp_string_pitch_hz(string, patch));
     const uint32_t n_masses = tuning_max_masses(&target, string->n_strung);
-    if (n_masses > string->wire.chain.n_masses) {
-      wire_mesh(&string->wire, &target, n_masses);
+    if (n_masses > string->voice.chain.n_masses) {
+      voice_mesh(&string->voice, &target, n_masses);
     }
   }
 }
@@ -64,15 +64,15 @@ double harp_string_pitch_hz(const HarpString* string, const Patch* patch) {
 void harp_string_init(
     HarpString* string, double rate_hz, uint32_t key, void* memory, uint32_t capacity) {
   *string = (HarpString){.key = key, .semitones = (double)key - 69.0, .touch = HARP_TOUCH_NONE};
-  wire_init(&string->wire, rate_hz, key, memory, capacity);
+  voice_init(&string->voice, rate_hz, key, memory, capacity);
 }
 
 void harp_string_rest(HarpString* string) {
-  wire_sleep(&string->wire);
+  voice_sleep(&string->voice);
   leave(string);
   string->touch = HARP_TOUCH_NONE;
   string->vibrato = (Vibrato){0};
-  string->grip = (Grip){0};
+  string->tie = (Tie){0};
   string->lift = 0.0;
   string->has_acted = false;
   string->hand = 0;
@@ -97,41 +97,41 @@ static bool glide(HarpString* string, const Patch* patch, uint32_t n_glide) {
   const double f0_hz = swing * harp_string_pitch_hz(string, patch);
   const TuningTarget wanted = harp_target(string, patch, f0_hz);
   const TuningTarget target = intonation_retune(&string->ear, &wanted, n_glide);
-  const bool is_had = grip_retune(&string->grip, string->bridge, &string->wire, &target,
-                                  harp_target_hold(string, patch), n_glide);
-  string->wire.f0_hz = is_had ? f0_hz : string->wire.f0_hz;
+  const bool is_had = tie_retune(&string->tie, string->bridge, &string->voice, &target,
+                                 harp_target_hold(string, patch), n_glide);
+  string->voice.f0_hz = is_had ? f0_hz : string->voice.f0_hz;
   return is_had;
 }
 
 static bool restring(HarpString* string, const Patch* patch, uint32_t n_glide) {
-  wire_choke(&string->wire, false);
+  voice_choke(&string->voice, false);
   const TuningTarget target = harp_target(string, patch, harp_string_pitch_hz(string, patch));
-  const bool is_strung = wire_string(&string->wire, &target, patch->max_masses);
-  string->n_strung = is_strung ? string->wire.chain.n_masses : 0;
+  const bool is_strung = voice_string(&string->voice, &target, patch->max_masses);
+  string->n_strung = is_strung ? string->voice.chain.n_masses : 0;
   string->vibrato = (Vibrato){0};
-  string->grip = (Grip){0};
+  string->tie = (Tie){0};
   if (is_strung && harp_target_hold(string, patch).lever > 0.0) {
     glide(string, patch, 0);
-    grip_renew(&string->grip, n_glide);
+    tie_renew(&string->tie, n_glide);
   }
   return is_strung;
 }
 
 /* The same, where it hangs on the way, and with its last pitch if the new one cannot be had. */
 static void glide_or_choke(HarpString* string, const Patch* patch, uint32_t n_glide) {
-  Wire* const wire = &string->wire;
+  Voice* const voice = &string->voice;
   if (harp_string_is_touched(string)) {
-    wire_feed(wire);
+    voice_feed(voice);
   }
   if (!glide(string, patch, n_glide)) {
-    wire_choke(wire, true);
-    const TuningTarget target = harp_target(string, patch, wire->f0_hz);
-    if (!grip_retune(&string->grip, string->bridge, wire, &target, harp_target_hold(string, patch),
-                     n_glide)) {
-      wire_sleep(wire);
+    voice_choke(voice, true);
+    const TuningTarget target = harp_target(string, patch, voice->f0_hz);
+    if (!tie_retune(&string->tie, string->bridge, voice, &target, harp_target_hold(string, patch),
+                    n_glide)) {
+      voice_sleep(voice);
     }
   }
-  if (!wire->is_awake || wire->is_choked) {
+  if (!voice->is_awake || voice->is_choked) {
     leave(string);
   }
   look(string);
@@ -139,7 +139,7 @@ static void glide_or_choke(HarpString* string, const Patch* patch, uint32_t n_gl
 
 /* The vibrato's next piece ends after `n_frames`. */
 static void swing(HarpString* string, const Patch* patch, uint32_t n_frames) {
-  vibrato_go(&string->vibrato, patch->vibrato_hz / string->wire.rate_hz, n_frames);
+  vibrato_go(&string->vibrato, patch->vibrato_hz / string->voice.rate_hz, n_frames);
   string->n_swing = n_frames;
 }
 
@@ -151,10 +151,10 @@ static void lean(HarpString* string, uint32_t n_glide) {
 
 /* A vibrato is not stretched by slow changes. */
 void harp_string_retune(HarpString* string, const Patch* patch, uint32_t n_glide) {
-  if (!string->wire.is_awake || string->wire.is_choked) {
+  if (!string->voice.is_awake || string->voice.is_choked) {
     return;
   }
-  const uint32_t n_gesture = wire_gesture_frames(string->wire.rate_hz);
+  const uint32_t n_gesture = voice_gesture_frames(string->voice.rate_hz);
   const double depth = vibrato_of(string);
   if (depth != string->vibrato.goal) {
     vibrato_to(&string->vibrato, depth, n_gesture);
@@ -168,8 +168,8 @@ void harp_string_retune(HarpString* string, const Patch* patch, uint32_t n_glide
 }
 
 void harp_string_choke(HarpString* string, const Patch* patch, uint32_t n_glide) {
-  if (string->wire.is_awake) {
-    wire_choke(&string->wire, true);
+  if (string->voice.is_awake) {
+    voice_choke(&string->voice, true);
     string->vibrato = (Vibrato){0};
     glide_or_choke(string, patch, n_glide);
   }
@@ -187,22 +187,22 @@ static double place_for(Exciter exciter, double wanted) {
 }
 
 static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
-  const Chain* const chain = &string->wire.chain;
-  const double rate_hz = string->wire.rate_hz;
-  const double angle1 = 2.0 * PI * string->wire.f0_hz / rate_hz;
-  const HarpBalance balance = {harp_target(string, patch, string->wire.f0_hz), chain->n_masses,
+  const Chain* const chain = &string->voice.chain;
+  const double rate_hz = string->voice.rate_hz;
+  const double angle1 = 2.0 * PI * string->voice.f0_hz / rate_hz;
+  const HarpBalance balance = {harp_target(string, patch, string->voice.f0_hz), chain->n_masses,
                                string->key, HAMMER_MASS};
   pluck.place = place_for(patch->exciter, pluck.place);
   pluck.amplitude *= harp_balance_gain(patch, &balance, pluck);
   switch (patch->exciter) {
   case EXCITER_PLUCK:
-    wire_pluck(&string->wire, pluck);
+    voice_pluck(&string->voice, pluck);
     look(string);
     break;
   case EXCITER_STRIKE: {
     const Strike strike = {pluck.place, pluck.hardness, HAMMER_MASS, pluck.amplitude};
     hammer_throw(&string->hammer, chain, strike, angle1, rate_hz);
-    wire_feed(&string->wire);
+    voice_feed(&string->voice);
     break;
   }
   case EXCITER_BOW: {
@@ -210,10 +210,10 @@ static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
                            BOW_RELEASE_S};
     bow_start(&string->bow, chain, stroke, angle1, rate_hz);
     if (!string->ear.is_active) {
-      const TuningTarget target = harp_target(string, patch, string->wire.f0_hz);
+      const TuningTarget target = harp_target(string, patch, string->voice.f0_hz);
       intonation_start(&string->ear, &target);
     }
-    wire_feed(&string->wire);
+    voice_feed(&string->voice);
     break;
   }
   }
@@ -221,14 +221,14 @@ static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
 
 void harp_string_play(HarpString* string, const Patch* patch, Pluck pluck, uint32_t n_glide) {
   string->lift = 1.0;
-  if (string->wire.is_awake) {
-    wire_choke(&string->wire, false);
+  if (string->voice.is_awake) {
+    voice_choke(&string->voice, false);
     mesh_for_pluck(string, patch);
     harp_string_retune(string, patch, n_glide);
   } else if (!restring(string, patch, n_glide)) {
     return;
   }
-  if (string->wire.is_awake && !string->wire.is_choked) {
+  if (string->voice.is_awake && !string->voice.is_choked) {
     excite(string, patch, pluck);
     lean(string, 0);
     if (vibrato_of(string) != string->vibrato.goal) {
@@ -240,7 +240,8 @@ void harp_string_play(HarpString* string, const Patch* patch, Pluck pluck, uint3
 void harp_string_lift(HarpString* string) {
   if (string->bow.is_active) {
     bow_lift(&string->bow);
-    intonation_leave(&string->ear, &string->wire.chain, wire_gesture_frames(string->wire.rate_hz));
+    intonation_leave(&string->ear, &string->voice.chain,
+                     voice_gesture_frames(string->voice.rate_hz));
   }
 }
 
@@ -255,7 +256,7 @@ bool harp_string_wake(HarpString* string, const Patch* patch, uint32_t n_glide) 
 }
 
 bool harp_string_act(HarpString* string) {
-  Chain* const chain = &string->wire.chain;
+  Chain* const chain = &string->voice.chain;
   const uint32_t n_gliding = chain->n_gliding;
   const double change = chain->change.k1;
   if (!harp_string_is_touched(string)) {
@@ -266,28 +267,28 @@ bool harp_string_act(HarpString* string) {
   intonation_hear(&string->ear, chain, string->bow.before);
   string->has_acted = true;
   if (chain->n_gliding != n_gliding || chain->change.k1 != change) {
-    grip_follow(&string->grip, chain);
+    tie_follow(&string->tie, chain);
     return true;
   }
   return !harp_string_is_touched(string);
 }
 
 uint32_t harp_string_stretch(const HarpString* string) {
-  const uint32_t n_wire = wire_stretch(&string->wire);
+  const uint32_t n_wire = voice_stretch(&string->voice);
   return vibrato_is_still(&string->vibrato) ? n_wire : least(n_wire, string->n_swing);
 }
 
 void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames) {
-  Wire* const wire = &string->wire;
-  if (string->has_acted && (wire->n_until_look == n_frames || !harp_string_is_touched(string))) {
-    wire_feed(wire);
-    wire->n_until_look += n_frames - 1; /* From now on, whenever it was told last */
+  Voice* const voice = &string->voice;
+  if (string->has_acted && (voice->n_until_look == n_frames || !harp_string_is_touched(string))) {
+    voice_feed(voice);
+    voice->n_until_look += n_frames - 1; /* From now on, whenever it was told last */
   }
   string->has_acted = false;
-  wire_pass(wire, n_frames);
+  voice_pass(voice, n_frames);
   if (!vibrato_is_still(&string->vibrato)) {
     string->n_swing -= n_frames;
-    if (string->n_swing == 0 && wire->is_awake) {
+    if (string->n_swing == 0 && voice->is_awake) {
       swing(string, patch, VIBRATO_PIECE_FRAMES);
       glide_or_choke(string, patch, VIBRATO_PIECE_FRAMES);
     }

@@ -10,10 +10,10 @@
 #include "core/excite/bow.h"
 #include "core/excite/hammer.h"
 #include "core/harp/patch.h"
-#include "core/voice/grip.h"
 #include "core/voice/intonation.h"
+#include "core/voice/tie.h"
 #include "core/voice/vibrato.h"
-#include "core/voice/wire.h"
+#include "core/voice/voice.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -32,7 +32,7 @@ typedef struct {
 
 /** Zero is a string that is asleep and has no memory. */
 typedef struct {
-  Wire wire;
+  Voice voice;
   uint32_t key;      /**< MIDI note number */
   double semitones;  /**< Its pitch above A4 [semitones]; NAN: it has none, and is silent */
   uint32_t n_strung; /**< Masses that it was strung with; a bend may have left it fewer */
@@ -45,7 +45,7 @@ typedef struct {
   Intonation ear;       /**< What listens while it is bowed */
   bool has_acted;       /**< One of them has, since harp_string_pass() was told */
   const Bridge* bridge; /**< What the patch's resonance ties it to; NULL: nothing */
-  Grip grip;            /**< How */
+  Tie tie;              /**< How */
 
   /* Who plays it; the harp's */
   uint32_t hand;    /**< The hand that played it last */
@@ -82,7 +82,7 @@ void harp_string_lift(HarpString* string);
 
 /**
    Bring a ringing string to the patch, its touch and its damper's `lift` in `n_glide` frames, see
-   wire_retune().  One that is choked, or asleep, is left alone; a pitch that cannot be had at all
+   voice_retune().  One that is choked, or asleep, is left alone; a pitch that cannot be had at all
    chokes it.
 */
 void harp_string_retune(HarpString* string, const Patch* patch, uint32_t n_glide);
@@ -104,7 +104,7 @@ bool harp_string_act(HarpString* string);
 /** Frames that it can be run before harp_string_pass() must be told. */
 uint32_t harp_string_stretch(const HarpString* string);
 
-/** After `n_frames`, at most its stretch: let the vibrato act, and see wire_pass(). */
+/** After `n_frames`, at most its stretch: let the vibrato act, and see voice_pass(). */
 void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames);
 
 #endif

@@ -21,14 +21,14 @@ TuningTarget harp_target(const HarpString* string, const Patch* patch, double f0
   const double octaves = ((double)string->key - 69.0) / 12.0;
   const double open_s = 1.0 / (patch->damping_per_s * exp2(patch->tracking * octaves));
   const TuningTarget open = {
-      .rate_hz = string->wire.rate_hz,
+      .rate_hz = string->voice.rate_hz,
       .tone = {.f0_hz = f0_hz, .tau_s = open_s},
       .loss = loss_of(string, patch),
       .inharmonicity = patch->inharmonicity,
       .partials = patch->partials,
   };
-  if (string->wire.is_choked) {
-    return tuning_damped(open, fmin(open_s, WIRE_CHOKE_S), 0.0);
+  if (string->voice.is_choked) {
+    return tuning_damped(open, fmin(open_s, VOICE_CHOKE_S), 0.0);
   }
   const double shut_s = fmin(open_s, patch->release_s);
   const double tau_s = shut_s * pow(open_s / shut_s, string->lift);
@@ -37,7 +37,7 @@ TuningTarget harp_target(const HarpString* string, const Patch* patch, double f0
 
 BridgeHold harp_target_hold(const HarpString* string, const Patch* patch) {
   const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
-  const bool is_tied = string->bridge && !string->wire.is_choked && patch->resonance > 0.0;
+  const bool is_tied = string->bridge && !string->voice.is_choked && patch->resonance > 0.0;
   return (BridgeHold){is_tied ? bridge_mass(f0_hz) : 0.0,
                       is_tied ? patch->resonance * patch->resonance * string->lift : 0.0};
 }

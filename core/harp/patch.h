@@ -15,11 +15,11 @@ typedef enum {
 
 /** What pickups hear of a string; about as loud in all. */
 typedef enum {
-  SENSE_DISPLACEMENT, /**< How far it is from rest */
-  SENSE_VELOCITY, /**< How fast it moves, as a magnet with a coil does: brighter by 6 dB an octave
-                   */
-  SENSE_FORCE     /**< How it pulls at the bridge, as a piezo does; wherever the pickup is */
-} Sense;
+  PICKUP_DISPLACEMENT, /**< How far it is from rest */
+  PICKUP_VELOCITY, /**< How fast it moves, as a magnet with a coil does: brighter by 6 dB an octave
+                    */
+  PICKUP_FORCE     /**< How it pulls at the bridge, as a piezo does; wherever the pickup is */
+} PickupType;
 
 /** Every value must be in its range and a number: who fills a patch in clamps it. */
 typedef struct {
@@ -27,10 +27,10 @@ typedef struct {
   double damping_per_s; /**< 1/τ of the fundamental at A4 [1/s], > 0 */
   double tracking;      /**< Damping of a key is damping · 2^(tracking (note − 69)/12) */
   double loss; /**< Share of the fundamental's damping that sits between the masses, 0 to 1 */
-  double inharmonicity; /**< B, ≥ 0; 0: perfectly flexible */
-  Partials partials;    /**< How true strings are to the ideal one */
-  Sense sense;          /**< What pickups hear */
-  double pickup;        /**< Where strings are read, fraction of the length, 0 to 1 */
+  double inharmonicity;   /**< B, ≥ 0; 0: perfectly flexible */
+  Partials partials;      /**< How true strings are to the ideal one */
+  PickupType pickup_type; /**< What pickups hear */
+  double pickup;          /**< Where strings are read, fraction of the length, 0 to 1 */
   double spread; /**< Between the left and the right pickup, fraction of the length, 0 to 0.5; past
                     an end, folded back */
   Exciter exciter;  /**< What strings are played with */

@@ -13,7 +13,7 @@
    Numbers.  What is touched or moves is kept in floats.  Rounding changes what a string loses in a
    step by up to 3 in 10⁹, which is nothing to one that loses 1 in 10⁴; but one that loses 1 in 10⁶
    would die a part in a hundred too soon or too late.  So a string that is left alone and weakly
-   damped is put into whole numbers (core/string/chain_whole.h), which do not drift, or if it is so
+   damped is put into whole numbers (core/string/chain_fixed.h), which do not drift, or if it is so
    short or rings so long that their noise would be too near, into doubles: see chain_settle().
 
    Layout.  The string is cut into as many segments as the kernel has lanes, S cells each, one a
@@ -53,7 +53,7 @@ typedef struct {
   StringCoefs now;    /**< What the next step uses, while still */
   StringCoefs change; /**< What a step adds to it, while gliding */
   StringCoefs goal;   /**< Where a glide ends */
-  StringCoefs whole;  /**< CHAIN_FIXED: what the next step uses instead, see ChainWhole */
+  StringCoefs whole;  /**< CHAIN_FIXED: what the next step uses instead, see ChainFixed */
   double gain;        /**< CHAIN_FIXED: of a number */
   double fade;        /**< CHAIN_FIXED: what a step makes of the gain */
   uint32_t chance;    /**< CHAIN_FIXED: where the dither is */
@@ -135,7 +135,7 @@ void chain_settle(Chain* chain);
    Keep the chain in certain numbers, with all its motion.
 
    @return false, and nothing done, for CHAIN_FIXED where they cannot be had: while it glides, or
-   see chain_whole_design()
+   see chain_fixed_design()
 */
 bool chain_hold(Chain* chain, ChainNumbers numbers);
 

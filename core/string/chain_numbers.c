@@ -1,6 +1,6 @@
 #include "core/string/chain_numbers.h"
 
-#include "core/string/chain_whole.h"
+#include "core/string/chain_fixed.h"
 
 #include <assert.h>
 #include <math.h>
@@ -124,7 +124,7 @@ static void leave_fixed(Chain* chain) {
   point_to(chain, CHAIN_FLOAT);
 }
 
-static void enter_fixed(Chain* chain, const ChainWhole* whole) {
+static void enter_fixed(Chain* chain, const ChainFixed* whole) {
   chain_hold(chain, CHAIN_FLOAT);
   point_to(chain, CHAIN_FIXED);
   chain->gain = whole->gain;
@@ -141,10 +141,10 @@ void chain_numbers_touch(Chain* chain) {
 
 bool chain_hold(Chain* chain, ChainNumbers numbers) {
   if (numbers == CHAIN_FIXED) {
-    ChainWhole whole;
+    ChainFixed whole;
     const bool is_still = chain->n_gliding == 0;
     if (!is_still ||
-        !chain_whole_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &whole)) {
+        !chain_fixed_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &whole)) {
       return false;
     }
     enter_fixed(chain, &whole);
@@ -159,14 +159,14 @@ bool chain_hold(Chain* chain, ChainNumbers numbers) {
 
 void chain_settle(Chain* chain) {
   const double quiet = chain->numbers == CHAIN_FIXED ? QUIET_ENOUGH : QUIET;
-  ChainWhole whole;
+  ChainFixed whole;
   if (chain->n_gliding > 0) {
     return;
   }
   if (tuning_mode(chain->now, chain->n_masses, 1).g >= WEAK_DAMPING) {
     chain_hold(chain, CHAIN_FLOAT);
   } else if (chain->is_shared ||
-             !chain_whole_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &whole) ||
+             !chain_fixed_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &whole) ||
              !(whole.noise <= quiet)) {
     chain_hold(chain, CHAIN_DOUBLE);
   } else if (chain->numbers != CHAIN_FIXED || chain->gain > TOO_SMALL * whole.gain ||

@@ -22,18 +22,18 @@ ChainTap pickup_tap(uint32_t n_masses, double place) {
 }
 
 ChainTap
-pickup_tap_sensing(Sense sense, uint32_t n_masses, double place, double angle1, bool is_far) {
+pickup_tap_of_type(PickupType type, uint32_t n_masses, double place, double angle1, bool is_far) {
   ChainTap tap = pickup_tap(n_masses, place);
-  switch (sense) {
-  case SENSE_DISPLACEMENT:
+  switch (type) {
+  case PICKUP_DISPLACEMENT:
     break;
-  case SENSE_VELOCITY: {
+  case PICKUP_VELOCITY: {
     const double gain = VELOCITY_GAIN * 0.5 / sin(0.5 * fmin(angle1, PI));
     tap.weight[0] = (float)(gain * (double)tap.weight[0]);
     tap.weight[1] = (float)(gain * (double)tap.weight[1]);
     break;
   }
-  case SENSE_FORCE: {
+  case PICKUP_FORCE: {
     const uint32_t end = is_far ? n_masses - 1 : 0;
     tap = (ChainTap){.mass = {end, end},
                      .weight = {(float)(FORCE_GAIN * (n_masses + 1.0) / PI), 0.0f}};

@@ -68,7 +68,7 @@ static void assert_on_the_curve(const Bow* bow, double place, StringCoefs coefs,
   const double give = 0.5 * square + 1.0 / (sqrt(k1) * (1.0 + 0.5 * bow->spring));
   const double pace = bow->strength.now * bow->paced.now / beta;
   const double v0 = fmax(1e-300, fmax(pace, 0.5 * give * force));
-  if (bow->grip == BOW_STICKS) {
+  if (bow->state == BOW_STICKS) {
     assert_true(bow->slip == 0.0 && fabs(bow->friction) <= 0.8 * force * (1.0 + 1e-12));
   } else {
     const double curve = force * (0.3 + 0.5 / (1.0 + fabs(bow->slip) / v0));
@@ -121,7 +121,7 @@ static void power_comes_from_the_bow_alone(void** state) {
                                           (fabs(bow.friction) + sqrt(coefs.k1) * bow.paced.goal));
       assert_on_the_curve(&bow, place, coefs, strung.chain.n_masses);
       assert_true(isfinite(after));
-      ++n_of[bow.grip];
+      ++n_of[bow.state];
       before = after;
       rolled = roll;
       change_anyhow(&bow, &strung, &random);
@@ -226,7 +226,7 @@ static void friction_does_not_jump(void** state) {
         assert_true(fabs(now.friction - before) <= 4.0 * most + 0.06 * force);
       }
       before = now.friction;
-      ++n_of[now.grip];
+      ++n_of[now.state];
     }
   }
   print_message("  %u stick, %u slip back, %u ahead\n", n_of[0], n_of[1], n_of[2]);

@@ -3,7 +3,7 @@
 #include "core/excite/bow.h"
 
 #include "core/voice/intonation.h"
-#include "core/voice/wire.h"
+#include "core/voice/voice.h"
 #include "tests/support/measure.h"
 #include "tests/support/oracle.h"
 #include "tests/support/strung.h"
@@ -171,7 +171,7 @@ static void lifted_strings_go_home(void** state) {
       const StringCoefs own = bowed.strung.chain.now;
       play(&bowed, 0, bowed_n);
       moved = fmax(moved, fabs(bowed.ear.cents));
-      const uint32_t n_gesture = wire_gesture_frames(rate_hz);
+      const uint32_t n_gesture = voice_gesture_frames(rate_hz);
       bow_lift(&bowed.bow);
       intonation_leave(&bowed.ear, &bowed.strung.chain, n_gesture);
       assert_true(bowed.strung.chain.n_gliding <= n_gesture);
@@ -204,8 +204,8 @@ static void the_string_is_moved_gently(void** state) {
         play(&bowed, i, i + 1);
         if (bowed.ear.cents != before) {
           ++n_moves;
-          assert_true(bowed.strung.chain.n_gliding >= WIRE_GESTURE_FRAMES &&
-                      bowed.strung.chain.n_gliding + 1.0 >= WIRE_GESTURE_S * rate_hz);
+          assert_true(bowed.strung.chain.n_gliding >= VOICE_GESTURE_FRAMES &&
+                      bowed.strung.chain.n_gliding + 1.0 >= VOICE_GESTURE_S * rate_hz);
           steepest = fmax(steepest, fabs(bowed.ear.cents - before));
         }
         before = bowed.ear.cents;

@@ -35,13 +35,13 @@ bow_string(Strung* strung, Bow* bow, Stroke stroke, double from_s, double to_s, 
   double in_phase = 0.0;
   double across = 0.0;
   uint32_t n_slips = 0;
-  BowGrip grip = BOW_STICKS;
+  BowState state = BOW_STICKS;
   bow_start(bow, &strung->chain, stroke, strung->angle1, strung->rate_hz);
   for (size_t i = 0; i < last; ++i) {
     heard[i] = strung_step(strung, mass);
     bow_act(bow, &strung->chain);
-    n_slips += i >= first && grip == BOW_STICKS && bow->grip != BOW_STICKS;
-    grip = bow->grip;
+    n_slips += i >= first && state == BOW_STICKS && bow->state != BOW_STICKS;
+    state = bow->state;
   }
   Tone tone = {0};
   const Tone near = {strung->f0_hz, 1e3};

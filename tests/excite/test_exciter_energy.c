@@ -2,8 +2,8 @@
  * energy but what was pushed into it. */
 #include "core/excite/bow.h"
 #include "core/excite/contact.h"
-#include "core/excite/exciter.h"
 #include "core/excite/hammer.h"
+#include "core/excite/pluck.h"
 
 #include "tests/support/hammers.h"
 #include "tests/support/oracle.h"
@@ -181,7 +181,7 @@ static void gesture(Played* played, Random* random) {
   if (what < 2) {
     const Pluck pluck = {random_between(random, 0.0, 1.0), random_between(random, 0.0, 1.0),
                          played->amplitude * random_between(random, -1.0, 1.0)};
-    exciter_pluck(&played->strung.chain, pluck, played->strung.angle1);
+    pluck_add(&played->strung.chain, pluck, played->strung.angle1);
     ++played->counts[N_PLUCKS];
   } else if (what < 4) {
     strike_anyhow(played, random);
@@ -268,7 +268,7 @@ static void a_pluck_gives_its_push_and_no_more(void** state) {
     hammers_shake(&played.strung, &random, is_at_rest ? 0.0 : played.amplitude);
     look(&played);
     before = *played.current;
-    exciter_pluck(&played.strung.chain, pluck, played.strung.angle1);
+    pluck_add(&played.strung.chain, pluck, played.strung.angle1);
     const double energy = played.energy;
     look(&played);
     double sum = 0.0, given = 0.0, square = 0.0;

@@ -1,7 +1,7 @@
 /* What a strike sounds like: as loud as a pluck, brighter the harder, and then the string's own. */
 #include "core/excite/hammer.h"
 
-#include "core/excite/exciter.h"
+#include "core/excite/pluck.h"
 #include "core/excite/rehearsal.h"
 #include "tests/support/hammers.h"
 #include "tests/support/measure.h"
@@ -39,8 +39,7 @@ static void strikes_are_as_loud_as_plucks(void** state) {
           uint32_t n_pressed = 0;
           strung_key(&strung, memory, key, strung_rate_hz(c / 8), limits[c % 8], 1e9);
           const double hardness = 0.5 * (double)(s % 3);
-          exciter_pluck(&strung.chain, (Pluck){places[p], hardness, amplitudes[s / 3]},
-                        strung.angle1);
+          pluck_add(&strung.chain, (Pluck){places[p], hardness, amplitudes[s / 3]}, strung.angle1);
           const double plucked = strung_fundamental(&strung);
           chain_rest(&strung.chain);
           hammers_strike(&strung, (Strike){places[p], hardness, masses[m], amplitudes[s / 3]},

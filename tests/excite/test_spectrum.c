@@ -2,8 +2,8 @@
 #include "core/excite/spectrum.h"
 
 #include "core/excite/bow.h"
-#include "core/excite/exciter.h"
 #include "core/excite/hammer.h"
+#include "core/excite/pluck.h"
 #include "tests/support/hammers.h"
 #include "tests/support/oracle.h"
 #include "tests/support/random.h"
@@ -76,7 +76,7 @@ static double pluck_and_tell(Strung* strung, Pluck pluck) {
   double most = 0.0;
   double worst = 0.0;
   chain_rest(&strung->chain);
-  exciter_pluck(&strung->chain, pluck, strung->angle1);
+  pluck_add(&strung->chain, pluck, strung->angle1);
   forget(given);
   read_squares(strung, given);
   one.amplitude = 1.0;

@@ -154,15 +154,15 @@ static void dead_string_sleeps_in_exact_zeros(void** state) {
   guitar_string_init(&string, RATE_HZ, 0, memory);
   string.open = 45.0;
   guitar_string_pluck(&string, &patch, (Pluck){0.3, 0.5, 0.25});
-  assert_true(string.wire.is_awake);
-  while (string.wire.is_awake && n_frames < 100000) {
+  assert_true(string.voice.is_awake);
+  while (string.voice.is_awake && n_frames < 100000) {
     guitar_string_run(&string, &patch, &gains, 16, none);
     n_frames += 16;
   }
   assert_within("seconds from ln(10⁶) τ", fabs(n_frames / RATE_HZ - log(1e6) / 20.0), 0.05);
-  for (uint32_t i = 0; i < string.wire.chain.n_masses; ++i) {
-    assert_true(chain_position(&string.wire.chain, i) == 0.0f);
-    assert_true(chain_velocity(&string.wire.chain, i) == 0.0f);
+  for (uint32_t i = 0; i < string.voice.chain.n_masses; ++i) {
+    assert_true(chain_position(&string.voice.chain, i) == 0.0f);
+    assert_true(chain_velocity(&string.voice.chain, i) == 0.0f);
   }
 }
 

@@ -46,9 +46,9 @@ static void solo_run(Solo* solo, uint32_t n_frames) {
 
 /* The fundamental's amplitude times √f. */
 static double motion_of(const Solo* solo) {
-  const Chain* const chain = &solo->string.wire.chain;
+  const Chain* const chain = &solo->string.voice.chain;
   const double length = chain->n_masses + 1.0;
-  const double angle = 2.0 * PI * solo->string.wire.f0_hz / RATE_HZ;
+  const double angle = 2.0 * PI * solo->string.voice.f0_hz / RATE_HZ;
   double x = 0.0;
   double u = 0.0;
   for (uint32_t i = 0; i < chain->n_masses; ++i) {

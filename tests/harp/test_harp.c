@@ -56,16 +56,16 @@ static double peak_of(const float* out, uint32_t n_frames) {
 
 /* The amplitude |C| of a fundamental that rings as Re(C zⁿ), from two successive samples of it. */
 static double fundamental_amplitude(const HarpString* string, double tau_s) {
-  const double length = string->wire.chain.n_masses + 1.0;
-  const double angle = 2.0 * PI * string->wire.f0_hz / string->wire.rate_hz;
+  const double length = string->voice.chain.n_masses + 1.0;
+  const double angle = 2.0 * PI * string->voice.f0_hz / string->voice.rate_hz;
   double x = 0.0;
   double u = 0.0;
-  for (uint32_t i = 0; i < string->wire.chain.n_masses; ++i) {
+  for (uint32_t i = 0; i < string->voice.chain.n_masses; ++i) {
     const double shape = 2.0 / length * sin(PI * (i + 1.0) / length);
-    x += shape * (double)chain_position(&string->wire.chain, i);
-    u += shape * (double)chain_velocity(&string->wire.chain, i);
+    x += shape * (double)chain_position(&string->voice.chain, i);
+    u += shape * (double)chain_velocity(&string->voice.chain, i);
   }
-  const double before = (x - u) * exp(-1.0 / (tau_s * string->wire.rate_hz));
+  const double before = (x - u) * exp(-1.0 / (tau_s * string->voice.rate_hz));
   return hypot(x, (before - x * cos(angle)) / sin(angle));
 }
 
@@ -117,9 +117,9 @@ static void dead_string_sleeps_in_exact_zeros(void** state) {
   /* The last that was seen of it is 16 frames old, in which it dies by 1 %. */
   assert_within("amplitude when it fell asleep, of its loudest", before / loudest, 1e-6 * 1.01);
   assert_within("seconds from ln(10⁶) τ", fabs(n_frames / 48000.0 - log(1e6) / 20.0), 0.05);
-  for (uint32_t i = 0; i < string->wire.chain.n_masses; ++i) {
-    assert_true(chain_position(&string->wire.chain, i) == 0.0f);
-    assert_true(chain_velocity(&string->wire.chain, i) == 0.0f);
+  for (uint32_t i = 0; i < string->voice.chain.n_masses; ++i) {
+    assert_true(chain_position(&string->voice.chain, i) == 0.0f);
+    assert_true(chain_velocity(&string->voice.chain, i) == 0.0f);
   }
   assert_true(harp_report(harp).n_masses == 0 && harp_report(harp).headroom == 1.0);
   run_for(harp, 99);
@@ -146,7 +146,7 @@ static void no_string_sleeps_before_120_db(void** state) {
       for (uint32_t n = 0; harp_report(harp).n_strings > 0; n += 16) {
         assert_true(n < 48000 * 20 / damping);
         last = fundamental_amplitude(string, 1.0 / damping);
-        loudest = fmax(loudest, chain_amplitude(&string->wire.chain, HUGE_VAL));
+        loudest = fmax(loudest, chain_amplitude(&string->voice.chain, HUGE_VAL));
         run_for(harp, 16);
       }
       /* Every 16 frames: it may have died by that much more since it was seen. */

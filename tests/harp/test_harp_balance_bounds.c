@@ -55,9 +55,9 @@ static double left_of(double damping_per_s) {
 /* Both sides' readings of the one mass, squared: from half way to a wall half of it is read. */
 static double square_of_readings(const Patch* patch) {
   const double far = patch->spread > 0.0 ? 0.5 : 1.0;
-  const double reading = patch->sense == SENSE_FORCE      ? 0.18 * 2.0 / PI
-                         : patch->sense == SENSE_VELOCITY ? 0.24 * far
-                                                          : far;
+  const double reading = patch->pickup_type == PICKUP_FORCE      ? 0.18 * 2.0 / PI
+                         : patch->pickup_type == PICKUP_VELOCITY ? 0.24 * far
+                                                                 : far;
   return 2.0 * reading * reading;
 }
 

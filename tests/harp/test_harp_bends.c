@@ -54,8 +54,8 @@ static double high[MOST_FRAMES];
 
 /* Its motion: an amplitude times √ω, which a slow change of pitch leaves alone. */
 static double motion_of(const HarpString* string) {
-  const double a1 = tuning_mode(string->wire.chain.now, string->wire.chain.n_masses, 1).a;
-  return chain_amplitude(&string->wire.chain, a1) * sqrt(sqrt(a1));
+  const double a1 = tuning_mode(string->voice.chain.now, string->voice.chain.n_masses, 1).a;
+  return chain_amplitude(&string->voice.chain, a1) * sqrt(sqrt(a1));
 }
 
 static Patch patch_of(const String* s) {
@@ -132,8 +132,8 @@ static void bend(Harp* harp, const String* s, double from, double to, Worst* wor
   const double before = motion_of(string);
   harp_bend(harp, 0, to);
   harp_run(harp, n_after, sound + at, other);
-  assert_true(string->wire.is_awake && !string->wire.is_choked && string->lift == 1.0);
-  assert_true(string->wire.headroom >= 1e-4 * (1.0 - 1e-9));
+  assert_true(string->voice.is_awake && !string->voice.is_choked && string->lift == 1.0);
+  assert_true(string->voice.headroom >= 1e-4 * (1.0 - 1e-9));
   const bool is_heard =
       measure_tone(sound + at + n_move, n_after - n_move, s->rate_hz, asked, &heard);
   const double cents = is_heard ? fabs(measure_cents(heard.f0_hz, asked.f0_hz)) : HUGE_VAL;

@@ -27,7 +27,7 @@ static Patch patch_with(double resonance) {
 }
 
 static bool is_awake(const Harp* harp, uint32_t key) {
-  return harp->strings[key].wire.is_awake;
+  return harp->strings[key].voice.is_awake;
 }
 
 static void without_resonance_there_is_no_bridge(void** state) {
@@ -42,7 +42,7 @@ static void without_resonance_there_is_no_bridge(void** state) {
     assert_int_equal(harp->bridge.n_tied, 0);
     assert_true(harp->bridge.bridge.y == 0.0 && harp->bridge.bridge.w == 0.0);
   }
-  assert_int_equal(harp->strings[57].wire.chain.numbers, CHAIN_FIXED);
+  assert_int_equal(harp->strings[57].voice.chain.numbers, CHAIN_FIXED);
   harp_free(harp);
 }
 
@@ -111,8 +111,8 @@ static double answer_db(uint32_t played, uint32_t answering, double resonance, d
   harp_run(harp, (uint32_t)(after_s * RATE), left, right);
   for (size_t i = 0; i < RATE / 4; ++i) {
     harp_run(harp, 1, left, right);
-    const Chain* const a = &harp->strings[played].wire.chain;
-    const Chain* const b = &harp->strings[answering].wire.chain;
+    const Chain* const a = &harp->strings[played].voice.chain;
+    const Chain* const b = &harp->strings[answering].voice.chain;
     middle[i] = chain_position(a, a->n_masses / 3);
     other[i] = chain_position(b, b->n_masses / 3);
   }
@@ -212,7 +212,7 @@ static void held_key_answers(void** state) {
   harp_run(harp, RATE / 10, left, right);
   assert_int_equal(harp_report(harp).n_strings, 2);
   assert_true(is_awake(harp, 69));
-  assert_true(harp->strings[69].wire.loudest > 0.0);
+  assert_true(harp->strings[69].voice.loudest > 0.0);
   harp_free(harp);
 }
 
@@ -230,7 +230,7 @@ static void string_whose_damper_falls_is_let_go(void** state) {
   harp_run(harp, RATE / 10, left, right);
   assert_true(is_awake(harp, 57));
   assert_int_equal(harp->bridge.n_tied, 0);
-  assert_int_equal(harp->strings[57].wire.chain.numbers, CHAIN_FIXED);
+  assert_int_equal(harp->strings[57].voice.chain.numbers, CHAIN_FIXED);
   harp_free(harp);
 }
 

@@ -84,20 +84,20 @@ static void tie_follows_the_masses(void** state) {
   Tone tone = {0};
   harp_note_on(harp, 0, 69, 110);
   harp_run(harp, RATE / 10, left, right);
-  const uint32_t n_masses = string->wire.chain.n_masses;
+  const uint32_t n_masses = string->voice.chain.n_masses;
   harp_bend(harp, 0, 24.0);
   harp_run(harp, RATE / 10, left, right);
-  assert_true(string->wire.chain.n_masses < n_masses);
-  assert_int_equal(string->grip.n_masses, string->wire.chain.n_masses);
+  assert_true(string->voice.chain.n_masses < n_masses);
+  assert_int_equal(string->tie.n_masses, string->voice.chain.n_masses);
   harp_run(harp, RATE / 2, left, right);
   const Tone asked = harps_tone(&patch, 69, 24.0);
   assert_true(measure_tone(left, RATE / 2, RATE, asked, &tone));
   assert_within("bent far [cents]", fabs(measure_cents(tone.f0_hz, asked.f0_hz)), 0.01);
-  const BridgeTie tie = bridge_tie(string->wire.chain.now, string->wire.chain.n_masses,
+  const BridgeTie tie = bridge_tie(string->voice.chain.now, string->voice.chain.n_masses,
                                    (BridgeHold){bridge_mass(440.0), 1.0});
-  assert_true(fabs(string->grip.now.pull / tie.pull - 1.0) < 1e-9);
-  assert_true(fabs(string->grip.now.weight / tie.weight - 1.0) < 1e-9);
-  assert_true(fabs(string->grip.now.spring / tie.spring - 1.0) < 1e-9);
+  assert_true(fabs(string->tie.now.pull / tie.pull - 1.0) < 1e-9);
+  assert_true(fabs(string->tie.now.weight / tie.weight - 1.0) < 1e-9);
+  assert_true(fabs(string->tie.now.spring / tie.spring - 1.0) < 1e-9);
   harp_free(harp);
 }
 
@@ -105,8 +105,8 @@ static void tie_follows_the_masses(void** state) {
 static void run_and_watch(Harp* harp, uint32_t key, size_t n, float* middle) {
   for (size_t i = 0; i < n; ++i) {
     harp_run(harp, 1, left, right);
-    const Chain* const chain = &harp->strings[key].wire.chain;
-    assert_true(harp->strings[key].wire.is_awake);
+    const Chain* const chain = &harp->strings[key].voice.chain;
+    assert_true(harp->strings[key].voice.is_awake);
     middle[i] = chain_position(chain, chain->n_masses / 2);
   }
 }

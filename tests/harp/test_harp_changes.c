@@ -113,9 +113,9 @@ static void change_of_patch_makes_no_step(void** state) {
 /* The fundamental's coordinate, in which no other mode is seen. */
 static double fundamental(const HarpString* string) {
   double sum = 0.0;
-  for (uint32_t i = 0; i < string->wire.chain.n_masses; ++i) {
-    const double shape = sin(PI * (i + 1.0) / (string->wire.chain.n_masses + 1.0));
-    sum += shape * (double)chain_position(&string->wire.chain, i);
+  for (uint32_t i = 0; i < string->voice.chain.n_masses; ++i) {
+    const double shape = sin(PI * (i + 1.0) / (string->voice.chain.n_masses + 1.0));
+    sum += shape * (double)chain_position(&string->voice.chain, i);
   }
   return sum;
 }
@@ -187,9 +187,9 @@ static void damper_leaves_the_loss_between_masses(void** state) {
     harp_reset(harp);
     harp_set_patch(harp, &patch, 0);
     harp_note_on(harp, 0, 57, 100);
-    const StringCoefs open = harp->strings[57].wire.chain.goal;
+    const StringCoefs open = harp->strings[57].voice.chain.goal;
     harp_note_off(harp, 0, 57);
-    const StringCoefs damped = harp->strings[57].wire.chain.goal;
+    const StringCoefs damped = harp->strings[57].voice.chain.goal;
     worst = fmax(worst, fabs(damped.z1 / open.z1 - 1.0));
     assert_true(damped.z0 > open.z0);
   }

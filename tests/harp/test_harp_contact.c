@@ -45,7 +45,7 @@ static void a_bend_does_not_take_back_what_is_being_given(void** state) {
 }
 
 static void assert_sees(const HarpString* string) {
-  const Chain* const chain = &string->wire.chain;
+  const Chain* const chain = &string->voice.chain;
   if (string->bow.is_active) {
     const Contact contact = contact_at(chain, string->bow.place.now);
     assert_true(string->bow.before == contact_velocity(chain, &contact));

@@ -50,7 +50,7 @@ static bool is_long(void) {
 
 static void fail_case(const Case* c, const char* what, double value) {
   print_message("%s: %.9g, key %u at %g Hz, %u masses\n", what, value, c->key, c->rate_hz,
-                c->string.wire.chain.n_masses);
+                c->string.voice.chain.n_masses);
   settings_print(&c->setting);
   fail();
 }
@@ -77,14 +77,14 @@ static double single_load(const Case* c) {
 
 /* The margin counted mode by mode; the harp's own word on it must not be better. */
 static double margin(const Case* c) {
-  const StringCoefs coefs = c->string.wire.chain.goal;
-  const uint32_t n = c->string.wire.chain.n_masses;
+  const StringCoefs coefs = c->string.voice.chain.goal;
+  const uint32_t n = c->string.voice.chain.n_masses;
   const double counted = oracle_headroom(coefs, n);
   if (!(counted >= MARGIN)) {
     fail_case(c, "margin counted mode by mode", counted);
   }
-  if (!(tuning_headroom(coefs, n) >= MARGIN) || !(c->string.wire.headroom <= counted + 1e-12)) {
-    fail_case(c, "margin predicted", c->string.wire.headroom);
+  if (!(tuning_headroom(coefs, n) >= MARGIN) || !(c->string.voice.headroom <= counted + 1e-12)) {
+    fail_case(c, "margin predicted", c->string.voice.headroom);
   }
   return counted;
 }
@@ -94,11 +94,11 @@ static double check_margins(Case* c) {
   static const double bends[] = {0.0, 2.0, -2.0, 24.0, -24.0};
   pluck(c);
   const double load = single_load(c);
-  if (c->string.wire.is_awake ? load > 4.0 : load < 4.0 * (1.0 - 1.1e-4)) {
-    fail_case(c, c->string.wire.is_awake ? "sounds past Nyquist" : "is silent, its load", load);
+  if (c->string.voice.is_awake ? load > 4.0 : load < 4.0 * (1.0 - 1.1e-4)) {
+    fail_case(c, c->string.voice.is_awake ? "sounds past Nyquist" : "is silent, its load", load);
   }
   double worst = 1.0;
-  for (int b = 0; c->string.wire.is_awake && b < 5; ++b) {
+  for (int b = 0; c->string.voice.is_awake && b < 5; ++b) {
     worst = fmin(worst, margin(c));
     c->string.touch.bend = bends[b];
     c->string.lift = b % 2;
@@ -134,7 +134,7 @@ static void every_corner_has_its_margin(void** state) {
         index = (index + STRIDE) % CORNERS;
         Case c = {.rate_hz = rates_hz[r], .key = key, .setting = corner(index)};
         worst = fmin(worst, check_margins(&c));
-        n_silent += !c.string.wire.is_awake;
+        n_silent += !c.string.voice.is_awake;
       }
     }
   }
@@ -154,25 +154,25 @@ static void run_frames(Case* c, uint32_t n_frames) {
   static float sound[DOZE];
   static const ChainTap tap = {{0, 0}, {1.0f, 0.0f}};
   float* const out[] = {sound};
-  chain_run(&c->string.wire.chain, n_frames, &tap, 1, out);
+  chain_run(&c->string.voice.chain, n_frames, &tap, 1, out);
 }
 
 static double energy_now(const Case* c) {
-  motion_read(&c->string.wire.chain, &motion);
-  return motion_energy(&motion, c->string.wire.chain.goal);
+  motion_read(&c->string.voice.chain, &motion);
+  return motion_energy(&motion, c->string.voice.chain.goal);
 }
 
 /* Single steps at first, then as the harp does it. */
 static void run_case(Case* c, uint32_t n_frames, Runs* runs) {
   double least = energy_now(c);
   uint32_t done = 0;
-  while (done < n_frames && c->string.wire.is_awake) {
-    const uint32_t n = done < LEAST_STEPS ? 1 : wire_stretch(&c->string.wire);
+  while (done < n_frames && c->string.voice.is_awake) {
+    const uint32_t n = done < LEAST_STEPS ? 1 : voice_stretch(&c->string.voice);
     run_frames(c, n);
     done += n;
-    wire_pass(&c->string.wire, n);
+    voice_pass(&c->string.voice, n);
     const double energy = energy_now(c);
-    if (!isfinite(energy) || !(c->string.wire.is_awake || energy == 0.0)) {
+    if (!isfinite(energy) || !(c->string.voice.is_awake || energy == 0.0)) {
       fail_case(c, "energy", energy);
     }
     runs->gain = fmax(runs->gain, energy / least);
@@ -193,12 +193,12 @@ static void no_string_gains_energy(void** state) {
               .setting = settings_random(&random)};
     worst = fmin(worst, check_margins(&c));
     pluck(&c);
-    if (!c.string.wire.is_awake) {
+    if (!c.string.voice.is_awake) {
       continue;
     }
     /* A second, or as much of it as there is time for; a short string costs as much as one of a
      * hundred masses. */
-    const double most = (is_long() ? 1e7 : 4e6) / (c.string.wire.chain.n_masses + 100.0);
+    const double most = (is_long() ? 1e7 : 4e6) / (c.string.voice.chain.n_masses + 100.0);
     Runs run = {0};
     run_case(&c, (uint32_t)fmin(c.rate_hz, most), &run);
     if (!(run.gain <= 1.0 + MOST_ROUNDING)) {
@@ -223,12 +223,12 @@ static void undamped_string_keeps_its_energy(void** state) {
               .key = random_below(&random, HARP_KEYS),
               .setting = settings_random(&random)};
     pluck(&c);
-    if (!c.string.wire.is_awake) {
+    if (!c.string.voice.is_awake) {
       continue;
     }
-    StringCoefs coefs = c.string.wire.chain.goal;
+    StringCoefs coefs = c.string.voice.chain.goal;
     coefs.z0 = coefs.z1 = 0.0;
-    motion_read(&c.string.wire.chain, &motion);
+    motion_read(&c.string.voice.chain, &motion);
     const double first = motion_energy(&motion, coefs);
     const uint32_t n_steps = 1000000 / (motion.n + 10);
     for (uint32_t n = 1; n <= n_steps; ++n) {
@@ -257,7 +257,7 @@ static void pitches_round_nyquist_are_stable_or_silent(void** state) {
         if (*tuning_hz >= settings_on_way(SETTING_TUNING, 0.0) &&
             *tuning_hz <= settings_on_way(SETTING_TUNING, 1.0)) {
           check_margins(&c);
-          n_silent += !c.string.wire.is_awake;
+          n_silent += !c.string.voice.is_awake;
           ++n_cases;
         }
       }

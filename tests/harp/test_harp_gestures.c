@@ -145,9 +145,9 @@ static void check_strings(const Harp* harp) {
   uint32_t n_strings = 0;
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     const HarpString* const string = &harp->strings[i];
-    if (string->wire.is_awake) {
-      assert_true(oracle_headroom(string->wire.chain.now, string->wire.chain.n_masses) >= 0.0);
-      assert_true(string->wire.chain.n_masses <= string->wire.capacity);
+    if (string->voice.is_awake) {
+      assert_true(oracle_headroom(string->voice.chain.now, string->voice.chain.n_masses) >= 0.0);
+      assert_true(string->voice.chain.n_masses <= string->voice.capacity);
       ++n_strings;
     }
   }

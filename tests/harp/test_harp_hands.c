@@ -18,7 +18,7 @@ static float left[RATE];
 static const HarpString* guest_at(const Harp* harp, uint32_t key) {
   for (uint32_t i = HARP_KEYS; i < HARP_STRINGS; ++i) {
     const HarpString* const guest = &harp->strings[i];
-    if (guest->wire.is_awake && guest->key == key) {
+    if (guest->voice.is_awake && guest->key == key) {
       return guest;
     }
   }

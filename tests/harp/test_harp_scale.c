@@ -65,7 +65,7 @@ static void run(Harp* harp, Sound* sound, uint32_t from, uint32_t to) {
 
 /* What the coefficients will be heard as, by the poles. */
 static Tone tone_of(const Harp* harp, uint32_t key) {
-  const Chain* const chain = &harp->strings[key].wire.chain;
+  const Chain* const chain = &harp->strings[key].voice.chain;
   return pole_tone(harp->rate_hz, tuning_mode(chain->goal, chain->n_masses, 1));
 }
 
@@ -92,9 +92,9 @@ static void every_key_has_the_pitch_of_the_scale(void** state) {
         const double octaves = ((double)key - 69.0) / 12.0;
         const double hz = patch.tuning_hz * exp2(steps[s] * octaves + bends[b] / 12.0);
         harp_note_on(harp, 0, key, 100);
-        assert_true(hz >= 0.49 * RATE || harp->strings[key].wire.is_awake);
-        assert_true(hz < 0.5 * RATE || !harp->strings[key].wire.is_awake);
-        if (harp->strings[key].wire.is_awake) {
+        assert_true(hz >= 0.49 * RATE || harp->strings[key].voice.is_awake);
+        assert_true(hz < 0.5 * RATE || !harp->strings[key].voice.is_awake);
+        if (harp->strings[key].voice.is_awake) {
           const double tau_s = 1.0 / (plain.damping_per_s * exp2(plain.tracking * octaves));
           worst = fmax(worst, cents_off(harp, key, hz));
           worst_decay = fmax(worst_decay, fabs(tone_of(harp, key).tau_s / tau_s - 1.0));
@@ -143,17 +143,17 @@ static void a_low_pitch_has_its_masses_on_every_key(void** state) {
     harp_reset(harp);
     set_steps(harp, 1.0);
     harp_note_on(harp, 0, (uint32_t)pitch, 100);
-    const uint32_t n_masses = harp->strings[pitch].wire.chain.n_masses;
+    const uint32_t n_masses = harp->strings[pitch].voice.chain.n_masses;
     for (int key = 0; key < 128; key += 7) {
       harp_reset(harp);
       set_key(harp, key, pitch - 69);
       harp_note_on(harp, 0, (uint32_t)key, 100);
-      assert_int_equal(harp->strings[key].wire.chain.n_masses, n_masses);
+      assert_int_equal(harp->strings[key].voice.chain.n_masses, n_masses);
     }
   }
   set_key(harp, 127, -69.0);
   harp_note_on(harp, 0, 127, 100);
-  assert_int_equal(harp->strings[127].wire.chain.n_masses, CHAIN_MAX_MASSES);
+  assert_int_equal(harp->strings[127].voice.chain.n_masses, CHAIN_MAX_MASSES);
   harp_free(harp);
 }
 
@@ -182,11 +182,11 @@ static void what_loses_its_pitch_is_choked(void** state) {
   harp_note_on(harp, 0, 64, 127);
   run(harp, &sound, 0, 2000);
   set_key(harp, 60, (double)NAN);
-  assert_true(harp->strings[60].wire.chain.n_gliding == harp->n_gesture);
+  assert_true(harp->strings[60].voice.chain.n_gliding == harp->n_gesture);
   harp_note_on(harp, 0, 60, 127);
   run(harp, &sound, 2000, 2000 + RATE / 8);
-  assert_false(harp->strings[60].wire.is_awake);
-  assert_true(harp->strings[64].wire.is_awake);
+  assert_false(harp->strings[60].voice.is_awake);
+  assert_true(harp->strings[64].voice.is_awake);
   harp_free(harp);
 }
 
@@ -204,14 +204,14 @@ static void what_rings_glides_in_a_gesture(void** state) {
   for (size_t s = 0; s < 6; ++s) {
     set_steps(harp, steps[s]);
     for (uint32_t key = 40; key < 90; key += 7) {
-      const Chain* const chain = &harp->strings[key].wire.chain;
+      const Chain* const chain = &harp->strings[key].voice.chain;
       worst = fmax(worst, cents_off(harp, key, 440.0 * exp2(steps[s] * ((int)key - 69) / 12.0)));
       assert_int_equal(chain->n_gliding, harp->n_gesture);
       assert_true(harp->strings[key].lift == (key == 47 ? 0.0 : 1.0));
     }
     run(harp, &sound, 500, 500 + harp->n_gesture);
     for (uint32_t key = 40; key < 90; key += 7) {
-      const Chain* const chain = &harp->strings[key].wire.chain;
+      const Chain* const chain = &harp->strings[key].voice.chain;
       assert_int_equal(chain->n_gliding, 0);
       assert_memory_equal(&chain->now, &chain->goal, sizeof(StringCoefs));
     }
@@ -228,8 +228,8 @@ static void what_keeps_its_pitch_is_not_touched(void** state) {
   harp_note_on(harp, 0, 62, 100);
   run(harp, &sound, 0, 1000);
   set_key(harp, 62, -6.5);
-  assert_int_equal(harp->strings[60].wire.chain.n_gliding, 0);
-  assert_int_equal(harp->strings[62].wire.chain.n_gliding, harp->n_gesture);
+  assert_int_equal(harp->strings[60].voice.chain.n_gliding, 0);
+  assert_int_equal(harp->strings[62].voice.chain.n_gliding, harp->n_gesture);
   harp_free(harp);
 }
 

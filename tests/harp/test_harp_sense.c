@@ -22,7 +22,7 @@ enum { RATE = 48000, FRAMES = 24000, SWITCH = 6000, GLIDE = 960 };
 
 static float sounds[3][2][FRAMES];
 
-static Patch plain(Sense sense) {
+static Patch plain(PickupType sense) {
   Patch patch = harps_patch(sense);
   patch.damping_per_s = 1.0;
   return patch;
@@ -35,7 +35,7 @@ static double velocity_gain(uint32_t key) {
 
 /* What is heard says how hard a string is played: so all are played as one of them is. */
 static void pluck_alike(Harp* harp, const Patch* patch, uint32_t key) {
-  const Patch displacement = plain(SENSE_DISPLACEMENT);
+  const Patch displacement = plain(PICKUP_DISPLACEMENT);
   harp_set_patch(harp, &displacement, 0);
   harp_note_on(harp, 0, key, 100);
   harp_set_patch(harp, patch, 0);
@@ -49,7 +49,7 @@ static void play(Harp* harp, const Patch* patch, uint32_t key, float sound[2][FR
 
 /* From the one sense to the other, `n_glide` frames from frame SWITCH on. */
 static void
-play_switch(Harp* harp, Sense from, Sense to, uint32_t n_glide, float sound[2][FRAMES]) {
+play_switch(Harp* harp, PickupType from, PickupType to, uint32_t n_glide, float sound[2][FRAMES]) {
   const Patch before = plain(from);
   const Patch after = plain(to);
   harps_restart(harp, &before);
@@ -63,10 +63,10 @@ play_switch(Harp* harp, Sense from, Sense to, uint32_t n_glide, float sound[2][F
 static void velocity_is_what_displacement_changes_by(void** state) {
   (void)state;
   double worst = 0.0;
-  const Patch displacement = plain(SENSE_DISPLACEMENT);
+  const Patch displacement = plain(PICKUP_DISPLACEMENT);
   Harp* const harp = harps_new(RATE, &displacement);
   for (uint32_t key = 33; key <= 96; key += 7) {
-    const Patch velocity = plain(SENSE_VELOCITY);
+    const Patch velocity = plain(PICKUP_VELOCITY);
     const double gain = velocity_gain(key);
     play(harp, &displacement, key, sounds[0]);
     play(harp, &velocity, key, sounds[1]);
@@ -85,7 +85,7 @@ static void velocity_is_what_displacement_changes_by(void** state) {
 }
 
 static double end_of(const Harp* harp, uint32_t key, bool is_far) {
-  const Chain* const chain = &harp->strings[key].wire.chain;
+  const Chain* const chain = &harp->strings[key].voice.chain;
   const double length = chain->n_masses + 1.0;
   return FORCE_GAIN * length / PI * (double)chain_position(chain, is_far ? chain->n_masses - 1 : 0);
 }
@@ -94,7 +94,7 @@ static double end_of(const Harp* harp, uint32_t key, bool is_far) {
 static void force_is_where_the_masses_at_the_ends_are(void** state) {
   (void)state;
   double worst = 0.0;
-  Patch patch = plain(SENSE_FORCE);
+  Patch patch = plain(PICKUP_FORCE);
   Harp* const harp = harps_new(RATE, &patch);
   for (uint32_t key = 33; key <= 96; key += 7) {
     for (int k = 0; k < 4; ++k) {
@@ -121,10 +121,10 @@ static void force_is_where_the_masses_at_the_ends_are(void** state) {
 static void a_sense_switched_to_is_as_if_it_had_always_been(void** state) {
   (void)state;
   double worst = 0.0;
-  const Patch patch = plain(SENSE_DISPLACEMENT);
+  const Patch patch = plain(PICKUP_DISPLACEMENT);
   Harp* const harp = harps_new(RATE, &patch);
-  for (Sense from = 0; from <= SENSE_FORCE; ++from) {
-    for (Sense to = 0; to <= SENSE_FORCE; ++to) {
+  for (PickupType from = 0; from <= PICKUP_FORCE; ++from) {
+    for (PickupType to = 0; to <= PICKUP_FORCE; ++to) {
       for (uint32_t n_glide = 0; n_glide <= GLIDE; n_glide += GLIDE) {
         play_switch(harp, from, to, n_glide, sounds[0]);
         play_switch(harp, to, to, 0, sounds[1]);
@@ -147,11 +147,11 @@ static double largest_step(float sound[2][FRAMES], size_t from, size_t to) {
 
 static void switching_senses_makes_no_click(void** state) {
   (void)state;
-  const Patch patch = plain(SENSE_DISPLACEMENT);
+  const Patch patch = plain(PICKUP_DISPLACEMENT);
   Harp* const harp = harps_new(RATE, &patch);
   double worst = 0.0;
-  for (Sense from = 0; from <= SENSE_FORCE; ++from) {
-    for (Sense to = 0; to <= SENSE_FORCE; ++to) {
+  for (PickupType from = 0; from <= PICKUP_FORCE; ++from) {
+    for (PickupType to = 0; to <= PICKUP_FORCE; ++to) {
       play_switch(harp, from, from, 0, sounds[0]);
       play_switch(harp, to, to, 0, sounds[1]);
       play_switch(harp, from, to, GLIDE, sounds[2]);
@@ -170,7 +170,7 @@ static void switching_senses_makes_no_click(void** state) {
 /* A bend that takes masses from a string moves the shape a little, and a difference would hear. */
 static void a_new_mesh_makes_no_click(void** state) {
   (void)state;
-  for (Sense sense = 0; sense <= SENSE_FORCE; ++sense) {
+  for (PickupType sense = 0; sense <= PICKUP_FORCE; ++sense) {
     double worst = 0.0;
     Patch patch = plain(sense);
     patch.max_masses = CHAIN_MAX_MASSES;
@@ -194,7 +194,7 @@ static void a_new_mesh_makes_no_click(void** state) {
 
 static void places_and_spread_hold_for_velocities(void** state) {
   (void)state;
-  Patch patch = plain(SENSE_VELOCITY);
+  Patch patch = plain(PICKUP_VELOCITY);
   Harp* const harp = harps_new(RATE, &patch);
   for (int k = 0; k <= 4; ++k) {
     patch.pickup = 0.25 * k;

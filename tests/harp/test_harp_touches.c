@@ -106,8 +106,8 @@ static void breath_and_pressure_are_the_bows_strength(void** state) {
 }
 
 static double loss_of(const HarpString* string) {
-  const StringCoefs c = string->wire.chain.goal;
-  const double between = c.z1 * tuning_lambda(string->wire.chain.n_masses, 1);
+  const StringCoefs c = string->voice.chain.goal;
+  const double between = c.z1 * tuning_lambda(string->voice.chain.n_masses, 1);
   return between / (c.z0 + between);
 }
 
@@ -146,7 +146,7 @@ static double sharpness(const float* samples, size_t n) {
 static void a_brighter_hand_plays_brighter_notes(void** state) {
   (void)state;
   for (uint32_t exciter = 0; exciter < 2; ++exciter) {
-    const Patch patch = harps_touched_patch(HARPS_N_SENSES * exciter + SENSE_VELOCITY);
+    const Patch patch = harps_touched_patch(HARPS_N_SENSES * exciter + PICKUP_VELOCITY);
     Harp* const harp = harps_new(RATE, &patch);
     double last = 0.0;
     for (int step = -1; step <= 1; ++step) {

@@ -61,7 +61,8 @@ static void a_vibrato_is_exact_in_its_mean(void** state) {
     const HarpString* const string = &harp->strings[KEY];
     harps_run(harp, 32, left + n, NULL);
     const double f_hz =
-        pole_tone(RATE, tuning_mode(string->wire.chain.now, string->wire.chain.n_masses, 1)).f0_hz;
+        pole_tone(RATE, tuning_mode(string->voice.chain.now, string->voice.chain.n_masses, 1))
+            .f0_hz;
     lowest = fmin(lowest, measure_cents(f_hz, f0_hz));
     highest = fmax(highest, measure_cents(f_hz, f0_hz));
   }
@@ -84,7 +85,7 @@ static double swing_of(Harp* harp, uint32_t key) {
   double most = 0.0;
   for (uint32_t n = 0; n < RATE / 2; n += 64) {
     harps_run(harp, 64, NULL, NULL);
-    const Pole pole = tuning_mode(string->wire.chain.now, string->wire.chain.n_masses, 1);
+    const Pole pole = tuning_mode(string->voice.chain.now, string->voice.chain.n_masses, 1);
     most = fmax(most, fabs(measure_cents(pole_tone(RATE, pole).f0_hz, f0_hz)));
   }
   return most;

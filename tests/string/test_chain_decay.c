@@ -3,8 +3,8 @@
 #include "core/string/chain.h"
 
 #include "core/base/complex_of.h"
+#include "core/string/chain_fixed.h"
 #include "core/string/chain_numbers.h"
-#include "core/string/chain_whole.h"
 #include "tests/support/chains.h"
 #include "tests/support/oracle.h"
 
@@ -163,10 +163,10 @@ static Noise noise_of(const TuningTarget* target, uint32_t most, uint32_t chance
   Noise noise = {0};
   Chain whole;
   Chain exact;
-  ChainWhole design;
+  ChainFixed design;
   assert_true(start(&whole, 0, target, most, 0.2));
   const uint32_t n = whole.n_masses;
-  assert_true(chain_whole_design(whole.now, n, chain_numbers_sum(&whole), &design));
+  assert_true(chain_fixed_design(whole.now, n, chain_numbers_sum(&whole), &design));
   const double a1 = tuning_mode(whole.now, n, 1).a;
   const double said = design.noise * chain_amplitude(&whole, a1);
   copy_to_doubles(&whole, &exact);

@@ -1,7 +1,7 @@
 /* Whole numbers never grow past what they can hold, whatever the string is made to do. */
 #include "core/string/chain.h"
 
-#include "core/string/chain_whole.h"
+#include "core/string/chain_fixed.h"
 #include "tests/support/chains.h"
 #include "tests/support/oracle.h"
 

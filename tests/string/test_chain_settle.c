@@ -1,8 +1,8 @@
 /* Which numbers a chain settles in, and that its motion passes from one to the other. */
 #include "core/string/chain.h"
 
+#include "core/string/chain_fixed.h"
 #include "core/string/chain_numbers.h"
-#include "core/string/chain_whole.h"
 #include "tests/support/chains.h"
 #include "tests/support/oracle.h"
 #include "tests/support/random.h"
@@ -129,10 +129,10 @@ static void noise_decides(void** state) {
   (void)state;
   for (double z0 = 1e-5; z0 > 1e-11; z0 *= 0.9) {
     const StringCoefs coefs = {.k1 = 0.8, .z0 = z0};
-    ChainWhole whole;
+    ChainFixed whole;
     Chain chain;
     start(&chain, 0, 8, coefs, 1.0);
-    assert_true(chain_whole_design(coefs, 8, chain_numbers_sum(&chain), &whole));
+    assert_true(chain_fixed_design(coefs, 8, chain_numbers_sum(&chain), &whole));
     const double noise = whole.noise;
     chain_settle(&chain);
     assert_int_equal(chain.numbers, noise < 3e-6 ? CHAIN_FIXED : CHAIN_DOUBLE);

@@ -94,7 +94,7 @@ static void velocity_has_the_place_and_a_weight(void** state) {
     const double place = random_between(&random, 0.0, 1.0);
     const double angle1 = random_log_between(&random, 1e-4, 3.1);
     const ChainTap plain = pickup_tap(n, place);
-    const ChainTap tap = pickup_tap_sensing(SENSE_VELOCITY, n, place, angle1, trial % 3 == 0);
+    const ChainTap tap = pickup_tap_of_type(PICKUP_VELOCITY, n, place, angle1, trial % 3 == 0);
     /* |1 − e^{−iω}|, of a difference at ω. */
     const double gain = 0.24 / hypot(1.0 - cos(angle1), sin(angle1));
     for (int k = 0; k < 2; ++k) {
@@ -118,8 +118,8 @@ static void force_is_the_slope_at_an_end(void** state) {
     }
     for (int step = 0; step <= 4; ++step) {
       const double place = 0.25 * step;
-      const double near = read(pickup_tap_sensing(SENSE_FORCE, n, place, 0.1, false), x);
-      const double far = read(pickup_tap_sensing(SENSE_FORCE, n, place, 0.1, true), x);
+      const double near = read(pickup_tap_of_type(PICKUP_FORCE, n, place, 0.1, false), x);
+      const double far = read(pickup_tap_of_type(PICKUP_FORCE, n, place, 0.1, true), x);
       worst = fmax(worst, fmax(fabs(near / 0.18 - 1.0), fabs(far / 0.54 - 1.0)));
     }
   }
@@ -129,7 +129,7 @@ static void force_is_the_slope_at_an_end(void** state) {
 
 static void displacement_is_read_as_ever(void** state) {
   (void)state;
-  const ChainTap tap = pickup_tap_sensing(SENSE_DISPLACEMENT, 9, 0.33, 0.1, true);
+  const ChainTap tap = pickup_tap_of_type(PICKUP_DISPLACEMENT, 9, 0.33, 0.1, true);
   const ChainTap plain = pickup_tap(9, 0.33);
   assert_memory_equal(&tap, &plain, sizeof(tap));
 }

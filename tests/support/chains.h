@@ -39,7 +39,7 @@ void chains_place_noise(Chain* chain, Random* random);
 /**
    Make a chain of `n` masses in `memory` that moves at random, the same for every kernel.
 
-   Whole numbers have little air, see chain_whole_design(), and no undamped string: there it is one
+   Whole numbers have little air, see chain_fixed_design(), and no undamped string: there it is one
    with air that pretends, for there is a loop.
 */
 void chains_start(Chain* chain,

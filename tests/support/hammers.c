@@ -56,7 +56,7 @@ double hammers_energy(const Hammer* hammer, const Strung* strung, const Motion* 
   const double now = hammer->position - x;
   const double before = now - hammer->velocity + u;
   Felt felt = hammer->make.felt;
-  felt.stiffness *= hammer->grip * length;
+  felt.stiffness *= hammer->hold * length;
   return 0.5 * hammer->make.mass * length * hammer->velocity * hammer->velocity +
          0.5 * (stored(&felt, now) + stored(&felt, before));
 }

@@ -27,8 +27,9 @@ Harp* hands_harp(void) {
 /* The tone that a string has once its last gesture is over, by its coefficients. */
 static Tone tone_of(Harp* harp, const HarpString* string) {
   harps_run(harp, harp->n_gesture, NULL, NULL);
-  assert_true(string->wire.is_awake && string->wire.chain.n_gliding == 0);
-  return pole_tone(HANDS_RATE, tuning_mode(string->wire.chain.now, string->wire.chain.n_masses, 1));
+  assert_true(string->voice.is_awake && string->voice.chain.n_gliding == 0);
+  return pole_tone(HANDS_RATE,
+                   tuning_mode(string->voice.chain.now, string->voice.chain.n_masses, 1));
 }
 
 void hands_check_pitch(Harp* harp, const HarpString* string, double bend) {

@@ -13,7 +13,7 @@ const char* harps_exciter(Exciter exciter) {
   return names[exciter];
 }
 
-const char* harps_sense(Sense sense) {
+const char* harps_sense(PickupType sense) {
   static const char* const names[] = {"displacement", "velocity", "force"};
   return names[sense];
 }
@@ -22,7 +22,7 @@ Patch harps_patch(uint32_t way) {
   const Setting setting = settings_default();
   Patch patch = settings_patch(&setting);
   patch.exciter = (Exciter)(way / HARPS_N_SENSES);
-  patch.sense = (Sense)(way % HARPS_N_SENSES);
+  patch.pickup_type = (PickupType)(way % HARPS_N_SENSES);
   return patch;
 }
 
@@ -72,7 +72,7 @@ Patch harps_touched_patch(uint32_t way) {
 }
 
 Tone harps_string_tone(const HarpString* string) {
-  assert_true(string->wire.is_awake && string->wire.chain.n_gliding == 0);
-  return pole_tone(string->wire.rate_hz,
-                   tuning_mode(string->wire.chain.now, string->wire.chain.n_masses, 1));
+  assert_true(string->voice.is_awake && string->voice.chain.n_gliding == 0);
+  return pole_tone(string->voice.rate_hz,
+                   tuning_mode(string->voice.chain.now, string->voice.chain.n_masses, 1));
 }

@@ -1,6 +1,6 @@
 #include "tools/bench/bench_load.h"
 
-#include "core/excite/exciter.h"
+#include "core/excite/pluck.h"
 #include "core/string/pickup.h"
 #include "core/string/tuning.h"
 #include "plugin/denormals.h"
@@ -93,7 +93,7 @@ static void start(Load* load) {
   const Pluck pluck = {.place = 0.13, .hardness = 0.5, .amplitude = 0.25};
   for (uint32_t i = 0; i < load->n_strings; ++i) {
     chain_rest(&load->chains[i]);
-    exciter_pluck(&load->chains[i], pluck, load->angles[i]);
+    pluck_add(&load->chains[i], pluck, load->angles[i]);
   }
   run_frames(load, SETTLE_FRAMES);
   for (uint32_t i = 0; i < load->n_strings; ++i) {

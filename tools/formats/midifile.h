@@ -11,7 +11,7 @@
 typedef struct {
   double time_s;        ///< From the start of the song [s], >= 0
   uint32_t size;        ///< [bytes], > 0
-  const uint8_t* bytes; ///< With its status byte, as on the wire; in MidiFile.bytes
+  const uint8_t* bytes; ///< With its status byte, as on the voice; in MidiFile.bytes
 } MidiEvent;
 
 /** A song. */

@@ -6,7 +6,7 @@
 
 enum { LIST_SIZE = 160 };
 
-/* Half the width of the softest finger and of the hardest pick, as in core/excite/exciter.c. */
+/* Half the width of the softest finger and of the hardest pick, as in core/excite/pluck.c. */
 static const double SOFTEST = 0.3;
 static const double HARDEST = 0.005;
 

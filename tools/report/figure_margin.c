@@ -57,8 +57,8 @@ static void write_map(FILE* data, PatchAt patch_at, double (*value_at)(double), 
     const Patch patch = patch_at(way);
     for (uint32_t key = 0; key < HARP_KEYS; ++key) {
       const HarpString string = string_of(&patch, key, memory);
-      (void)fprintf(data, "%u %.9g %.4g %u\n", key, value_at(way), string.wire.headroom,
-                    string.wire.chain.n_masses);
+      (void)fprintf(data, "%u %.9g %.4g %u\n", key, value_at(way), string.voice.headroom,
+                    string.voice.chain.n_masses);
     }
   }
 }
@@ -69,7 +69,7 @@ static uint32_t first_below(const Patch* patch, uint32_t level, void* memory) {
   uint32_t high = HARP_KEYS;
   while (low < high) {
     const uint32_t middle = (low + high) / 2;
-    if (string_of(patch, middle, memory).wire.chain.n_masses < level) {
+    if (string_of(patch, middle, memory).voice.chain.n_masses < level) {
       high = middle;
     } else {
       low = middle + 1;

@@ -1,6 +1,6 @@
 #include "tools/report/trade.h"
 
-#include "core/string/chain_whole.h"
+#include "core/string/chain_fixed.h"
 #include "tools/report/trade_bank.h"
 #include "tools/report/trade_scheme.h"
 
@@ -110,8 +110,8 @@ whole_tone(double rate_hz, StringCoefs coefs, uint32_t n_masses, uint32_t k, Ton
   const double half = 0.5 * (n_masses + 1.0);
   const ChainSums sums = {
       .xx = half, .slope = half * lambda, .twist = half * lambda * lambda * lambda};
-  ChainWhole whole;
-  if (!chain_whole_design(coefs, n_masses, sums, &whole)) {
+  ChainFixed whole;
+  if (!chain_fixed_design(coefs, n_masses, sums, &whole)) {
     return false;
   }
   *tone = pole_tone(rate_hz, tuning_mode(rounded(whole.coefs), n_masses, k));

@@ -1,7 +1,7 @@
 #include "tools/report/trade_engine.h"
 
 #include "core/analysis/network.h"
-#include "core/excite/exciter.h"
+#include "core/excite/pluck.h"
 #include "core/string/chain.h"
 #include "tools/report/trade_bank.h"
 
@@ -42,7 +42,7 @@ static bool string_chain(TradeEngine* engine, StringCoefs coefs) {
   }
   chain_init(&engine->chain, chain_kernel(0), engine->memory, engine->n_masses);
   chain_set(&engine->chain, coefs);
-  exciter_pluck(&engine->chain, pluck, 2.0 * PI * engine->string.f0_hz / engine->string.rate_hz);
+  pluck_add(&engine->chain, pluck, 2.0 * PI * engine->string.f0_hz / engine->string.rate_hz);
   return true;
 }
 

@@ -1,4 +1,4 @@
-#include "core/excite/touch.h"
+#include "core/excite/finger.h"
 
 #include <assert.h>
 #include <math.h>
@@ -74,7 +74,7 @@ static void lay(const Near* near, double t, double* place) {
   }
 }
 
-void touch_act(Chain* chain, double place, double weight) {
+void finger_act(Chain* chain, double place, double weight) {
   const double at = place * (chain->n_masses + 1.0);
   const double mass = fmin(floor(at), (double)chain->n_masses);
   const Near near = {(int64_t)mass - (N_FINGER / 2 - 1) - REACH, chain->n_masses};

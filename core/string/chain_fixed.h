@@ -20,8 +20,8 @@
 
    Thread: any; real-time safe.
 */
-#ifndef HOOKE_CORE_STRING_CHAIN_WHOLE_H
-#define HOOKE_CORE_STRING_CHAIN_WHOLE_H
+#ifndef HOOKE_CORE_STRING_CHAIN_FIXED_H
+#define HOOKE_CORE_STRING_CHAIN_FIXED_H
 
 #include "core/string/chain_kernel.h"
 #include "core/string/tuning.h"
@@ -35,7 +35,7 @@ typedef struct {
   double fade;       /**< ρ */
   double gain;       /**< x/X, such that no number ever overflows */
   double noise;      /**< Of the rounded links over one time constant, relative to the motion */
-} ChainWhole;
+} ChainFixed;
 
 /**
    Design it for a still string with a motion of `sums`, in true units.
@@ -44,6 +44,6 @@ typedef struct {
    @return false where it cannot be had: no motion, no damping, damped so much that its partials
    would shift by more than about 0.01 cent, or bending so negative that it hardly pulls back
 */
-bool chain_whole_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, ChainWhole* whole);
+bool chain_fixed_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, ChainFixed* whole);
 
 #endif

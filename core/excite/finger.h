@@ -17,8 +17,8 @@
 
    Thread: one at a time; real-time safe.
 */
-#ifndef HOOKE_CORE_EXCITE_TOUCH_H
-#define HOOKE_CORE_EXCITE_TOUCH_H
+#ifndef HOOKE_CORE_EXCITE_FINGER_H
+#define HOOKE_CORE_EXCITE_FINGER_H
 
 #include "core/string/chain.h"
 
@@ -28,6 +28,6 @@
    @param place   Fraction of the length, 0 to 1
    @param weight  0: no finger, to 1: one of twice the string's impedance
 */
-void touch_act(Chain* chain, double place, double weight);
+void finger_act(Chain* chain, double place, double weight);
 
 #endif

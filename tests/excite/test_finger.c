@@ -1,5 +1,5 @@
 /* A finger on a string takes energy, gives none, and leaves what has a node under it. */
-#include "core/excite/touch.h"
+#include "core/excite/finger.h"
 
 #include "tests/support/energy.h"
 #include "tests/support/oracle.h"
@@ -75,7 +75,7 @@ static void touch_never_adds_energy(void** state) {
     const double place = draw_place(&random, n_masses);
     const double weight = random_below(&random, 3) ? random_between(&random, 0.0, 1.0) : 1.0;
     motion_read(&chain, &before);
-    touch_act(&chain, place, weight);
+    finger_act(&chain, place, weight);
     motion_read(&chain, &after);
     const double energy = motion_energy(&before, chain.now);
     assert_true(energy > 0.0);
@@ -103,9 +103,9 @@ static void no_weight_and_walls_do_nothing(void** state) {
     const uint32_t n_masses = 1 + random_below(&random, MOST_MASSES);
     draw_string(&random, n_masses);
     motion_read(&chain, &before);
-    touch_act(&chain, draw_place(&random, n_masses), 0.0);
-    touch_act(&chain, 0.0, 1.0);
-    touch_act(&chain, 1.0, 1.0);
+    finger_act(&chain, draw_place(&random, n_masses), 0.0);
+    finger_act(&chain, 0.0, 1.0);
+    finger_act(&chain, 1.0, 1.0);
     motion_read(&chain, &after);
     assert_true(distance(&before, &after) == 0.0);
   }
@@ -138,7 +138,7 @@ static void touch_takes_the_share_that_it_should(void** state) {
     const double damper = weight * 2.0 * sqrt(chain.now.k1);
     const double theta = damper / (inertia + 0.5 * damper);
     const double taken = 0.5 * slope * slope / inertia * (1.0 - (1.0 - theta) * (1.0 - theta));
-    touch_act(&chain, m / (n_masses + 1.0), weight);
+    finger_act(&chain, m / (n_masses + 1.0), weight);
     motion_read(&chain, &after);
     const double here = e0 - motion_energy(&after, chain.now);
     worst = fmax(worst, fabs(here - taken) / e0);
@@ -156,7 +156,7 @@ static void finger_beside_a_wall_feels_the_string_go_on(void** state) {
   for (int i = 0; i < 500; ++i) {
     draw_string(&random, n);
     motion_read(&chain, &before);
-    touch_act(&chain, (i % 2 ? 0.5 : n + 0.5) / (n + 1.0), 1.0);
+    finger_act(&chain, (i % 2 ? 0.5 : n + 0.5) / (n + 1.0), 1.0);
     motion_read(&chain, &after);
     const uint32_t near = i % 2 ? 0 : n - 1;
     const uint32_t next = i % 2 ? 1 : n - 2;
@@ -185,7 +185,7 @@ static void node_is_not_felt(void** state) {
         chain_place(&chain, m, (float)(0.3 * shape), (float)(0.01 * shape));
       }
       motion_read(&chain, &before);
-      touch_act(&chain, 1.0 / nodes[i], 1.0);
+      finger_act(&chain, 1.0 / nodes[i], 1.0);
       motion_read(&chain, &after);
       const double lost = 1.0 - motion_energy(&after, coefs) / motion_energy(&before, coefs);
       assert_true(k % nodes[i] == 0 ? fabs(lost) < 1e-6 : lost > 1e-6);
@@ -209,7 +209,7 @@ static double left_of(uint32_t n_steps, double weight) {
   motion_read(&chain, &before);
   for (uint32_t n = 0; n < n_steps; ++n) {
     chain_run(&chain, 1, &tap, 1, out);
-    touch_act(&chain, 0.5, weight);
+    finger_act(&chain, 0.5, weight);
   }
   motion_read(&chain, &after);
   return motion_energy(&after, coefs) / motion_energy(&before, coefs);

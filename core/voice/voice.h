@@ -9,10 +9,10 @@
 
    Thread: one at a time; real-time safe.
 */
-#ifndef HOOKE_CORE_VOICE_WIRE_H
-#define HOOKE_CORE_VOICE_WIRE_H
+#ifndef HOOKE_CORE_VOICE_VOICE_H
+#define HOOKE_CORE_VOICE_VOICE_H
 
-#include "core/excite/exciter.h"
+#include "core/excite/pluck.h"
 #include "core/string/chain.h"
 #include "core/string/tuning.h"
 
@@ -20,12 +20,12 @@
 #include <stdint.h>
 
 /** τ of a string that a hand chokes [s]. */
-#define WIRE_CHOKE_S 0.005
+#define VOICE_CHOKE_S 0.005
 
 /** What a player's gesture takes [s], and the fewest frames: a string must have the time to follow
  * it, whatever the rate, or gestures would pump it. */
-#define WIRE_GESTURE_S 0.004
-enum { WIRE_GESTURE_FRAMES = 192 };
+#define VOICE_GESTURE_S 0.004
+enum { VOICE_GESTURE_FRAMES = 192 };
 
 /** Zero is one that is asleep and has no memory. */
 typedef struct {
@@ -42,63 +42,63 @@ typedef struct {
   double headroom;           /**< Of its coefficients, see tuning_headroom() */
   double loudest;            /**< Largest displacement seen since it was last plucked */
   uint32_t n_choked;         /**< Frames in which it has been choked */
-  uint32_t n_until_look;     /**< Frames until it is next looked at, see wire_pass() */
+  uint32_t n_until_look;     /**< Frames until it is next looked at, see voice_pass() */
   bool is_awake;             /**< Whether it moves */
   bool is_kept;              /**< Something else moves it: it is not put to sleep */
   bool is_choked; /**< Whether it is to be let go soon, however slow its upper modes are */
-} Wire;
+} Voice;
 
 /** Frames that a gesture takes at a rate. */
-uint32_t wire_gesture_frames(double rate_hz);
+uint32_t voice_gesture_frames(double rate_hz);
 
-/** Lay a wire at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT. */
-void wire_init(Wire* wire, double rate_hz, uint32_t phase, void* memory, uint32_t capacity);
+/** Lay a voice at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT. */
+void voice_init(Voice* voice, double rate_hz, uint32_t phase, void* memory, uint32_t capacity);
 
-/** Silence a wire and set all its masses to exact zeros. */
-void wire_sleep(Wire* wire);
+/** Silence a voice and set all its masses to exact zeros. */
+void voice_sleep(Voice* voice);
 
 /**
    String it anew, at rest, with the largest stable number of masses up to `limit` and its capacity.
 
    @return false, and it sleeps, if it cannot sound at this pitch
 */
-bool wire_string(Wire* wire, const TuningTarget* target, uint32_t limit);
+bool voice_string(Voice* voice, const TuningTarget* target, uint32_t limit);
 
 /**
-   Bring a wire that is awake to `target` in `n_glide` frames, its motion kept.  Where that would
+   Bring a voice that is awake to `target` in `n_glide` frames, its motion kept.  Where that would
    pass its limit stiffness and true partials give way (tuning_fit()); where they would have to by
    far, the motion is moved onto fewer masses (core/string/remesh.h).
 
    @return false, and it goes on as it was, if the pitch cannot be had
 */
-bool wire_retune(Wire* wire, const TuningTarget* target, uint32_t n_glide);
+bool voice_retune(Voice* voice, const TuningTarget* target, uint32_t n_glide);
 
 /**
-   Move the motion of a wire that is awake onto `n_masses`, at the pitch and decay that it has now;
+   Move the motion of a voice that is awake onto `n_masses`, at the pitch and decay that it has now;
    all else is as `target` says.
 
    @param n_masses  1 to the capacity
    @return false, and nothing done, if they cannot hold it
 */
-bool wire_mesh(Wire* wire, const TuningTarget* target, uint32_t n_masses);
+bool voice_mesh(Voice* voice, const TuningTarget* target, uint32_t n_masses);
 
-/** Add a pluck to the motion of a wire that is awake. */
-void wire_pluck(Wire* wire, Pluck pluck);
+/** Add a pluck to the motion of a voice that is awake. */
+void voice_pluck(Voice* voice, Pluck pluck);
 
-/** What moves a wire that is awake is given to it as a pluck would give it, and it is not looked at
- * for a while: call it now and then while something plays on it. */
-void wire_feed(Wire* wire);
+/** What moves a voice that is awake is given to it as a pluck would give it, and it is not looked
+ * at for a while: call it now and then while something plays on it. */
+void voice_feed(Voice* voice);
 
-/** Say whether it is choked, see WIRE_CHOKE_S. */
-void wire_choke(Wire* wire, bool is_choked);
+/** Say whether it is choked, see VOICE_CHOKE_S. */
+void voice_choke(Voice* voice, bool is_choked);
 
-/** Frames that it can be run in one go, before wire_pass() must be told. */
-uint32_t wire_stretch(const Wire* wire);
+/** Frames that it can be run in one go, before voice_pass() must be told. */
+uint32_t voice_stretch(const Voice* voice);
 
 /**
-   After `n_frames`, at most its stretch: when it is due, put the wire to sleep if it has died away
+   After `n_frames`, at most its stretch: when it is due, put the voice to sleep if it has died away
    to −120 dB of its loudest, or has been choked for a while; else see that its numbers suit it.
 */
-void wire_pass(Wire* wire, uint32_t n_frames);
+void voice_pass(Voice* voice, uint32_t n_frames);
 
 #endif

@@ -1,4 +1,4 @@
-#include "core/excite/exciter.h"
+#include "core/excite/pluck.h"
 
 #include "tests/support/oracle.h"
 
@@ -94,7 +94,7 @@ static void fundamental_is_that_of_the_ideal_string(void** state) {
           const double f0_hz = limits[l] <= 20 ? 110.0 : 20.0;
           const double angle = string_up(&chain, rates_hz[r], f0_hz, limits[l]);
           const double w = width_of(chain.n_masses, is_hard ? HARDEST : SOFTEST);
-          exciter_pluck(&chain, (Pluck){place, is_hard, 0.25}, angle);
+          pluck_add(&chain, (Pluck){place, is_hard, 0.25}, angle);
           const double amplitude = ringing_amplitude(&chain, angle, (int)(2.0 * PI / angle));
           if (place > w && place < 1.0 - w) {
             const double ideal = 4.0 / PI * 0.25 * sin(PI * place) * finger(w);
@@ -124,7 +124,7 @@ static void one_mass_is_plucked_wherever_one_plucks(void** state) {
     const double place = 0.25 * quarter;
     Chain chain;
     const double angle = string_up(&chain, 48000.0, 1000.0, 1);
-    exciter_pluck(&chain, (Pluck){place, 0.5, 0.25}, angle);
+    pluck_add(&chain, (Pluck){place, 0.5, 0.25}, angle);
     assert_within("amplitude, relative",
                   fabs(ringing_amplitude(&chain, angle, 480) / (4.0 / PI * 0.25) - 1.0), 1e-5);
   }
@@ -138,7 +138,7 @@ static uint32_t brightness(double hardness) {
   double most = 0.0;
   double partials[N + 1];
   chain_init(&chain, chain_kernel(0), memory, N);
-  exciter_pluck(&chain, (Pluck){0.37, hardness, 0.25}, 0.01);
+  pluck_add(&chain, (Pluck){0.37, hardness, 0.25}, 0.01);
   for (uint32_t k = 1; k <= N; ++k) {
     double sum = 0.0;
     for (uint32_t i = 0; i < N; ++i) {
@@ -176,7 +176,7 @@ static void flipping_mode_is_left_alone(void** state) {
       double sum = 0.0;
       double most = 0.0;
       chain_init(&chain, chain_kernel(0), memory, n);
-      exciter_pluck(&chain, (Pluck){place, 1.0, 0.25}, 0.01);
+      pluck_add(&chain, (Pluck){place, 1.0, 0.25}, 0.01);
       for (uint32_t i = 0; i < n; ++i) {
         sum += (i % 2 ? -1.0 : 1.0) * (double)chain_velocity(&chain, i);
         most += (double)chain_velocity(&chain, i);
@@ -201,7 +201,7 @@ static void ideal_string_peaks_at_the_amplitude(void** state) {
       const double angle = string_up(&chain, 48000.0, 239.9, 1024);
       double peak = 0.0;
       assert_int_equal(chain.n_masses, 99);
-      exciter_pluck(&chain, (Pluck){place, hardnesses[h], 0.25}, angle);
+      pluck_add(&chain, (Pluck){place, hardnesses[h], 0.25}, angle);
       for (int n = 0; n < 400; ++n) {
         step(&chain);
         for (uint32_t i = 0; i < 99; ++i) {
@@ -223,7 +223,7 @@ static void pluck_adds_to_what_rings(void** state) {
   float before[N];
   Chain chain;
   const double angle = string_up(&chain, 48000.0, 200.0, N);
-  exciter_pluck(&chain, (Pluck){0.2, 0.4, 0.25}, angle);
+  pluck_add(&chain, (Pluck){0.2, 0.4, 0.25}, angle);
   for (int n = 0; n < 500; ++n) {
     step(&chain);
   }
@@ -234,11 +234,11 @@ static void pluck_adds_to_what_rings(void** state) {
   for (uint32_t i = 0; i < N; ++i) {
     positions[i] = chain_position(&chain, i);
   }
-  exciter_pluck(&chain, (Pluck){0.6, 0.8, 0.1}, angle);
+  pluck_add(&chain, (Pluck){0.6, 0.8, 0.1}, angle);
   Chain alone;
   static _Alignas(CHAIN_ALIGNMENT) char other_memory[32 * CHAIN_MAX_MASSES];
   chain_init(&alone, chain_kernel(0), other_memory, N);
-  exciter_pluck(&alone, (Pluck){0.6, 0.8, 0.1}, angle);
+  pluck_add(&alone, (Pluck){0.6, 0.8, 0.1}, angle);
   for (uint32_t i = 0; i < N; ++i) {
     assert_true(chain_position(&chain, i) == positions[i]);
     const float sum = before[i] + chain_velocity(&alone, i);

@@ -3,8 +3,8 @@
 
    Thread: one at a time; real-time safe.
 */
-#ifndef HOOKE_CORE_EXCITE_EXCITER_H
-#define HOOKE_CORE_EXCITE_EXCITER_H
+#ifndef HOOKE_CORE_EXCITE_PLUCK_H
+#define HOOKE_CORE_EXCITE_PLUCK_H
 
 #include "core/string/chain.h"
 
@@ -28,6 +28,6 @@ typedef struct {
 
    @param angle1  The fundamental's digital angular frequency 2πF/rate [rad per sample], 0 to π
 */
-void exciter_pluck(Chain* chain, Pluck pluck, double angle1);
+void pluck_add(Chain* chain, Pluck pluck, double angle1);
 
 #endif

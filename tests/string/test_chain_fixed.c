@@ -1,4 +1,4 @@
-#include "core/string/chain_whole.h"
+#include "core/string/chain_fixed.h"
 
 #include "tests/support/oracle.h"
 #include "tests/support/random.h"
@@ -49,7 +49,7 @@ typedef struct {
   double partial_cents; /* Of those that ring, below half of Nyquist */
 } Worst;
 
-static void check_modes(StringCoefs coefs, const ChainWhole* whole, uint32_t n, Worst* worst) {
+static void check_modes(StringCoefs coefs, const ChainFixed* whole, uint32_t n, Worst* worst) {
   for (uint32_t k = 1; k <= n; ++k) {
     const Pole truth = tuning_mode(coefs, n, k);
     const Pole pole = tuning_mode(whole->coefs, n, k);
@@ -76,9 +76,9 @@ static void modes_without_air_are_the_same(void** state) {
   uint32_t n_taken = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     uint32_t n = 0;
-    ChainWhole whole;
+    ChainFixed whole;
     const StringCoefs coefs = random_string(&random, &n);
-    if (chain_whole_design(coefs, n, some, &whole)) {
+    if (chain_fixed_design(coefs, n, some, &whole)) {
       const Pole first = tuning_mode(coefs, n, 1);
       const Pole pole = tuning_mode(whole.coefs, n, 1);
       assert_true(fabs(whole.fade * whole.fade - (1.0 - coefs.z0)) < 1e-15);
@@ -113,10 +113,10 @@ static void air_is_left_out_until_it_is_heard(void** state) {
       /* The fundamental is (z0/2)² sharper than X without that share, and the others are not. */
       const double heard = 2.0 * sqrt(2.0 * 0.01 / 1200.0 * log(2.0) * a1);
       StringCoefs coefs = {.k1 = k1, .z0 = 0.5 * heard};
-      ChainWhole whole;
-      assert_true(chain_whole_design(coefs, n, some, &whole));
+      ChainFixed whole;
+      assert_true(chain_fixed_design(coefs, n, some, &whole));
       coefs.z0 = 2.0 * heard;
-      assert_false(chain_whole_design(coefs, n, some, &whole));
+      assert_false(chain_fixed_design(coefs, n, some, &whole));
     }
   }
 }
@@ -136,23 +136,23 @@ static void what_cannot_be_had_is_refused(void** state) {
       {.k1 = (double)NAN, .z0 = 1e-6},
       {.k1 = 0.5, .z0 = (double)NAN},
   };
-  ChainWhole whole;
-  ChainWhole before;
+  ChainFixed whole;
+  ChainFixed before;
   memset(&whole, 0x5A, sizeof(whole));
   before = whole;
   sums[1] =
       (ChainSums){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN};
   sums[2].slope = HUGE_VAL;
   for (size_t s = 0; s < sizeof(sums) / sizeof(sums[0]); ++s) {
-    assert_false(chain_whole_design(good, 20, sums[s], &whole));
+    assert_false(chain_fixed_design(good, 20, sums[s], &whole));
   }
   for (size_t b = 0; b < sizeof(bad) / sizeof(bad[0]); ++b) {
-    assert_false(chain_whole_design(bad[b], 20, some, &whole));
+    assert_false(chain_fixed_design(bad[b], 20, some, &whole));
   }
   assert_memory_equal(&whole, &before, sizeof(whole));
-  assert_true(chain_whole_design(good, 20, some, &whole));
+  assert_true(chain_fixed_design(good, 20, some, &whole));
   assert_true(
-      chain_whole_design((StringCoefs){.k1 = 0.5, .k2 = -0.11, .z0 = 1e-6}, 20, some, &whole));
+      chain_fixed_design((StringCoefs){.k1 = 0.5, .k2 = -0.11, .z0 = 1e-6}, 20, some, &whole));
 }
 
 /* A link errs by its dither and its rounding, 0.41 of a number, and by 0.41 of its last place,
@@ -167,8 +167,8 @@ static void noise_is_that_of_dither_and_last_places(void** state) {
     const double a1 = 0.7 * tuning_lambda(n, 1);
     /* The fundamental alone, of size 1, at its largest. */
     const ChainSums sums = {.xx = 0.5 * length, .slope = 0.5 * length * a1 / 0.7};
-    ChainWhole whole;
-    assert_true(chain_whole_design(coefs, n, sums, &whole));
+    ChainFixed whole;
+    assert_true(chain_fixed_design(coefs, n, sums, &whole));
     const double place = ldexp(0.7 * sqrt(0.5 * a1 / 0.7), -24);
     const double error = 0.41 * sqrt(whole.gain * whole.gain + place * place);
     const double noise = error * sqrt(2.0 / (length * 0.7 * 1e-6));

@@ -1,4 +1,4 @@
-#include "core/string/chain_whole.h"
+#include "core/string/chain_fixed.h"
 
 #include <math.h>
 
@@ -73,7 +73,7 @@ static double largest(StringCoefs c, uint32_t n_masses, ChainSums sums) {
 /* In each step each link errs by its dither and its rounding, 1/√12 of a number each, and by a part
  * of its own last place; over one time constant that adds up in a mode as the steps' square root.
  */
-static double noise_of(const ChainWhole* whole, uint32_t n_masses, ChainSums sums, Pole first) {
+static double noise_of(const ChainFixed* whole, uint32_t n_masses, ChainSums sums, Pole first) {
   const double length = n_masses + 1.0;
   const double k1 = whole->coefs.k1;
   const double link = k1 * sqrt(sums.slope / length);
@@ -82,14 +82,14 @@ static double noise_of(const ChainWhole* whole, uint32_t n_masses, ChainSums sum
   return error * sqrt(2.0 / (length * first.g * k1)) / amplitude;
 }
 
-bool chain_whole_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, ChainWhole* whole) {
+bool chain_fixed_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, ChainFixed* whole) {
   const Pole first = tuning_mode(coefs, n_masses, 1);
   const double half_air = 0.5 * coefs.z0;
   if (!(first.g > 0.0) || !(half_air * half_air <= AUDIBLE_AIR * first.a)) {
     return false;
   }
   const double fade = sqrt(1.0 - coefs.z0);
-  ChainWhole design = {.coefs = without_air(coefs, n_masses, fade), .fade = fade};
+  ChainFixed design = {.coefs = without_air(coefs, n_masses, fade), .fade = fade};
   const StringCoefs* const c = &design.coefs;
   const double size = largest(*c, n_masses, sums);
   if (!(least_pull(*c) > LEAST_PULL * c->k1) || !isfinite(size) || !(size > 0.0)) {

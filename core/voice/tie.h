@@ -5,11 +5,11 @@
 
    Thread: one at a time; real-time safe.
 */
-#ifndef HOOKE_CORE_VOICE_GRIP_H
-#define HOOKE_CORE_VOICE_GRIP_H
+#ifndef HOOKE_CORE_VOICE_TIE_H
+#define HOOKE_CORE_VOICE_TIE_H
 
 #include "core/voice/bridge.h"
-#include "core/voice/wire.h"
+#include "core/voice/voice.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -23,39 +23,39 @@ typedef struct {
   uint32_t n_masses;  /**< Of the string that it was made for */
   BridgeHold hold;    /**< What `goal` was made with */
   BridgeShift shift;  /**< What the bridge did to the string when it was last tuned */
-} Grip;
+} Tie;
 
 /** Whether the bridge and the string know of each other. */
-bool grip_is_on(const Grip* grip);
+bool tie_is_on(const Tie* tie);
 
 /**
-   Retune a wire that is awake, as wire_retune(), such that it is in tune once it is tied with
+   Retune a voice that is awake, as voice_retune(), such that it is in tune once it is tied with
    `hold` and the glide is over.
 
-   @return as wire_retune(); on failure the tie is as it was
+   @return as voice_retune(); on failure the tie is as it was
 */
-bool grip_retune(Grip* grip,
-                 const Bridge* bridge,
-                 Wire* wire,
-                 const TuningTarget* target,
-                 BridgeHold hold,
-                 uint32_t n_glide);
+bool tie_retune(Tie* tie,
+                const Bridge* bridge,
+                Voice* voice,
+                const TuningTarget* target,
+                BridgeHold hold,
+                uint32_t n_glide);
 
 /** The chain has set out for other coefficients, by a few cents: so does the tie. */
-void grip_follow(Grip* grip, const Chain* chain);
+void tie_follow(Tie* tie, const Chain* chain);
 
 /** Begin anew with no tie, and have it in `n_frames`. */
-void grip_renew(Grip* grip, uint32_t n_frames);
+void tie_renew(Tie* tie, uint32_t n_frames);
 
 /** Go on by one frame. */
-static inline void grip_advance(Grip* grip) {
-  if (grip->n_gliding > 0) {
-    const BridgeTie change = grip->change;
-    grip->now.pull += change.pull;
-    grip->now.spring += change.spring;
-    grip->now.load += change.load;
-    if (--grip->n_gliding == 0) {
-      grip->now = grip->goal;
+static inline void tie_advance(Tie* tie) {
+  if (tie->n_gliding > 0) {
+    const BridgeTie change = tie->change;
+    tie->now.pull += change.pull;
+    tie->now.spring += change.spring;
+    tie->now.load += change.load;
+    if (--tie->n_gliding == 0) {
+      tie->now = tie->goal;
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "core/excite/exciter.h"
+#include "core/excite/pluck.h"
 
 #include <math.h>
 
@@ -16,7 +16,7 @@ static double raised_cosine(double distance) {
   return fabs(distance) < 1.0 ? 0.5 + 0.5 * cos(PI * distance) : 0.0;
 }
 
-void exciter_pluck(Chain* chain, Pluck pluck, double angle1) {
+void pluck_add(Chain* chain, Pluck pluck, double angle1) {
   const double length = chain->n_masses + 1.0;
   const double width = fmax(NARROWEST, length * SOFTEST * pow(HARDEST / SOFTEST, pluck.hardness));
   const double centre = fmin(fmax(pluck.place * length, 1.0), (double)chain->n_masses);
