@@ -250,7 +250,7 @@ def library_ending(bld):
 
 def build_tools(bld):
     defines = ['HOOKE_VERSION="%s"' % VERSION, 'HOOKE_LV2DIR="%s"' % bld.env.LV2DIR]
-    use = 'hooke_analysis hooke_core LILV SNDFILE SMF LV2 M DL PTHREAD'
+    use = 'hooke_parts hooke_analysis hooke_core LILV SNDFILE SMF LV2 M DL PTHREAD'
     library(bld, 'hooke_tools', bld.path.ant_glob('tools/*/*.c', excl=['tools/commands/main.c', 'tools/make/*.c']), use=use, defines=defines)
     for node in bld.path.ant_glob('tools/commands/main.c'):
         bld.program(source=[node], target='hooke', name='hooke_program', use='hooke_tools ' + use, defines=defines)

@@ -1,5 +1,7 @@
 #include "plugin/guitar_ports.h"
 
+#include <stddef.h>
+
 static const PortRange ranges[] = {GUITAR_CONTROL_PORTS(PORT_RANGE)};
 
 /* Those of the guitarist and the host. */
@@ -14,16 +16,13 @@ static Controls in_patch(const Controls* controls) {
   return kept;
 }
 
-static Patch string_patch(const float* v) {
-  return (Patch){
-      .level = ports_gain(v[GUITAR_PORT_LEVEL]),
+static StringPatch string_patch(const float* v) {
+  return (StringPatch){
       .damping_per_s = (double)v[GUITAR_PORT_DAMPING],
       .tracking = (double)v[GUITAR_PORT_TRACKING],
       .loss = ports_above(v[GUITAR_PORT_LOSS], 1e-5f),
       .inharmonicity = ports_above(v[GUITAR_PORT_STIFFNESS], 1e-6f),
       .partials = (Partials)ports_whole(v[GUITAR_PORT_PARTIALS]),
-      .pluck = (double)v[GUITAR_PORT_PLUCK],
-      .hardness = (double)v[GUITAR_PORT_HARDNESS],
       .release_s = (double)v[GUITAR_PORT_RELEASE],
       .tuning_hz = (double)v[GUITAR_PORT_TUNING],
       .max_masses = ports_whole(v[GUITAR_PORT_MASSES]),
@@ -39,6 +38,9 @@ GuitarPatch guitar_ports_patch(const Controls* controls) {
   const double blend = (double)v[GUITAR_PORT_BLEND];
   GuitarPatch patch = {
       .string = string_patch(v),
+      .level = ports_gain(v[GUITAR_PORT_LEVEL]),
+      .pluck = (double)v[GUITAR_PORT_PLUCK],
+      .hardness = (double)v[GUITAR_PORT_HARDNESS],
       .pickups = {{(double)v[GUITAR_PORT_PICKUP], 1.0 - blend},
                   {(double)v[GUITAR_PORT_PICKUP2], blend}},
       .n_strings = GUITAR_PORT_STRINGS,
@@ -51,6 +53,12 @@ GuitarPatch guitar_ports_patch(const Controls* controls) {
     patch.open[i] = ports_whole(v[GUITAR_PORT_STRING1 + i]);
   }
   return patch;
+}
+
+GuitarPatch guitar_ports_usual(void) {
+  void* const none[PORTS_MAX] = {NULL};
+  const Controls controls = guitar_ports_read(none);
+  return guitar_ports_patch(&controls);
 }
 
 GuitaristHow guitar_ports_how(const Controls* controls) {

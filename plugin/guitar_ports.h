@@ -66,6 +66,9 @@ Controls guitar_ports_read(void* const ports[PORTS_MAX]);
 /** What the controls say, as a patch for the guitar. */
 GuitarPatch guitar_ports_patch(const Controls* controls);
 
+/** The patch of the ports as they come. */
+GuitarPatch guitar_ports_usual(void);
+
 /** What they say of the guitarist. */
 GuitaristHow guitar_ports_how(const Controls* controls);
 

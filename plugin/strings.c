@@ -45,7 +45,7 @@ static void reset(void* player) {
 
 static void set(void* player, const Controls* controls, uint32_t n_frames) {
   const Player* const self = player;
-  const Patch patch = strings_ports_patch(controls);
+  const HarpPatch patch = strings_ports_patch(controls);
   harp_set_patch(self->harp, &patch, n_frames);
 }
 

@@ -3,7 +3,7 @@
 #ifndef HOOKE_PLUGIN_STRINGS_PORTS_H
 #define HOOKE_PLUGIN_STRINGS_PORTS_H
 
-#include "core/harp/patch.h"
+#include "core/harp/harp_patch.h"
 #include "plugin/ports.h"
 
 /**
@@ -49,6 +49,9 @@ enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STR
 Controls strings_ports_read(void* const ports[PORTS_MAX]);
 
 /** What the controls say, as a patch for the harp. */
-Patch strings_ports_patch(const Controls* controls);
+HarpPatch strings_ports_patch(const Controls* controls);
+
+/** The patch of the ports as they come: the one place where its numbers are. */
+HarpPatch strings_ports_usual(void);
 
 #endif

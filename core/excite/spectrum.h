@@ -20,10 +20,10 @@
 #ifndef HOOKE_CORE_EXCITE_SPECTRUM_H
 #define HOOKE_CORE_EXCITE_SPECTRUM_H
 
+#include "core/excite/exciter.h"
 #include "core/excite/hammer.h"
 #include "core/excite/pluck.h"
 #include "core/excite/rehearsal.h"
-#include "core/harp/patch.h"
 #include "core/string/pole.h"
 
 #include <stdint.h>

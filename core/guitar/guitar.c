@@ -32,22 +32,6 @@ struct Guitar {
   GuitarMixer mixer;
 };
 
-static const GuitarPatch usual = {
-    .string = {.level = 1.0,
-               .damping_per_s = 0.6,
-               .tracking = 0.5,
-               .loss = 0.01,
-               .partials = PARTIALS_TRUEST,
-               .pluck = 0.13,
-               .hardness = 0.5,
-               .release_s = 0.1,
-               .tuning_hz = 440.0,
-               .max_masses = 80},
-    .pickups = {{0.1, 1.0}, {0.25, 0.0}},
-    .open = {64.0, 59.0, 55.0, 50.0, 45.0, 40.0},
-    .n_strings = 6,
-};
-
 static double clamp(double value, double low, double high) {
   return fmin(fmax(value, low), high);
 }
@@ -109,7 +93,6 @@ Guitar* guitar_new(double rate_hz) {
     guitar_string_init(&guitar->strings[w], rate_hz, w, memory);
     guitar_string_init(&guitar->rests[w], rate_hz, w, memory + size);
   }
-  guitar_set_patch(guitar, &usual, 0);
   return guitar;
 }
 
@@ -151,7 +134,7 @@ void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frame
 }
 
 void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
-  const Patch* const patch = &guitar->patch.string;
+  const GuitarPatch* const patch = &guitar->patch;
   const double harder = FORCE_HARDNESS * (sqrt(fabs(pluck.force)) - FORCE_NEUTRAL);
   const double place = isnan(pluck.place) ? patch->pluck : pluck.place;
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
@@ -159,7 +142,7 @@ void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
     const double share = side ? guitar->patch.course : 1.0;
     if (share > 0.0 || s->voice.is_awake) {
       const Pluck own = {
-          .place = guitar_string_place(s, &guitar->patch, place),
+          .place = guitar_string_place(s, patch, place),
           .hardness =
               isnan(pluck.hardness) ? clamp(patch->hardness + harder, 0.0, 1.0) : pluck.hardness,
           .amplitude = GUITAR_NOTE_PEAK * share * pluck.force,

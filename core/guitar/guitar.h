@@ -46,7 +46,7 @@ typedef struct {
 typedef struct Guitar Guitar;
 
 /**
-   Make a guitar at rest, with six strings in the usual tuning.
+   Make a guitar at rest, which has no strings until it is given a patch.
 
    @param rate_hz  Frames per second [Hz], > 0
    @return NULL if there is no memory or the rate is no rate; else the caller's, to guitar_free()

@@ -12,7 +12,7 @@ static double place_of(const GuitarPatch* patch, uint32_t string) {
 
 /* As loud in any place. */
 void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_frames) {
-  ramp_to(&mixer->level, (float)patch->string.level, n_frames);
+  ramp_to(&mixer->level, (float)patch->level, n_frames);
   for (int p = 0; p < GUITAR_PICKUPS; ++p) {
     ramp_to(&mixer->gains[p], (float)patch->pickups[p].gain, n_frames);
   }

@@ -2,7 +2,7 @@
 #ifndef HOOKE_CORE_GUITAR_GUITAR_PATCH_H
 #define HOOKE_CORE_GUITAR_GUITAR_PATCH_H
 
-#include "core/harp/patch.h"
+#include "core/voice/string_patch.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -21,8 +21,12 @@ typedef struct {
 
 /** Every value must be in its range and a number: who fills a patch in clamps it. */
 typedef struct {
-  Patch string; /**< Of every string; its pickup and spread are not used.  The damping is that of
-                   the note that is fretted, and the masses are those of an open string */
+  StringPatch string; /**< Of every string.  The damping is that of the note that is fretted, and
+                         the masses are those of an open string */
+  double level;       /**< Gain, ≥ 0 */
+  double pluck;       /**< Where strings are plucked, fraction of the open string's length from the
+                         bridge, 0 to 1 */
+  double hardness;    /**< Of what plucks, 0 to 1 */
   GuitarPickup pickups[GUITAR_PICKUPS];
   double open[GUITAR_STRINGS]; /**< MIDI note of each open string, the highest string first */
   uint32_t n_strings;          /**< How many there are, 1 to GUITAR_STRINGS */

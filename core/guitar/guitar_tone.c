@@ -6,22 +6,14 @@ double guitar_tone_frets(const GuitarPatch* patch, double fret) {
   return fmax(patch->capo + fret, 0.0);
 }
 
-static double pitch_hz(const GuitarPatch* patch, double note) {
-  return patch->string.tuning_hz * exp2((note - 69.0) / 12.0);
-}
-
 /* What a note is to sound like without a hand on the string. */
 static TuningTarget
 free_target(const GuitarString* string, const GuitarPatch* patch, double note, double f0_hz) {
-  const Patch* const p = &patch->string;
-  const double damping_per_s = p->damping_per_s * exp2(p->tracking * (note - 69.0) / 12.0);
-  return (TuningTarget){
-      .rate_hz = string->voice.rate_hz,
-      .tone = {.f0_hz = f0_hz, .tau_s = 1.0 / damping_per_s},
-      .loss = p->loss,
-      .inharmonicity = p->inharmonicity,
-      .partials = p->partials,
-  };
+  return string_patch_target(&patch->string, string->voice.rate_hz, note - 69.0, f0_hz);
+}
+
+static double pitch_hz(const GuitarPatch* patch, double note) {
+  return string_patch_pitch_hz(&patch->string, note - 69.0);
 }
 
 TuningTarget guitar_tone_open(const GuitarString* string, const GuitarPatch* patch) {

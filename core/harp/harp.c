@@ -112,13 +112,11 @@ void harp_reset(Harp* harp) {
 }
 
 /* Whether what rings has the same coefficients under both. */
-static bool is_same_string(const Patch* a, const Patch* b) {
-  return a->damping_per_s == b->damping_per_s && a->tracking == b->tracking && a->loss == b->loss &&
-         a->inharmonicity == b->inharmonicity && a->release_s == b->release_s &&
-         a->tuning_hz == b->tuning_hz && a->partials == b->partials && a->resonance == b->resonance;
+static bool is_same_string(const HarpPatch* a, const HarpPatch* b) {
+  return string_patch_rings_alike(&a->string, &b->string) && a->resonance == b->resonance;
 }
 
-void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_frames) {
+void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames) {
   const bool is_same = is_same_string(patch, &harp->patch);
   const uint32_t n_glide = n_frames > 0 && n_frames < harp->n_gesture ? harp->n_gesture : n_frames;
   harp->patch = *patch;

@@ -15,9 +15,9 @@
 
 #include "core/base/ramp.h"
 #include "core/harp/harp_bridge.h"
+#include "core/harp/harp_patch.h"
 #include "core/harp/harp_pickups.h"
 #include "core/harp/harp_string.h"
-#include "core/harp/patch.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -53,7 +53,7 @@ typedef struct {
 typedef struct Harp {
   double rate_hz;
   uint32_t n_gesture; /**< Frames that a player's gesture takes to act */
-  Patch patch;
+  HarpPatch patch;
   HarpHand hands[HARP_HANDS];
   double swell; /**< Gain beside the patch's level */
   Ramp level;
@@ -87,7 +87,7 @@ void harp_reset(Harp* harp);
 
 /** Take a new patch; what rings gets there in `n_frames`, and no faster than by a gesture (0: at
    once).  How and where it is plucked, and the most masses, hold from the next pluck on. */
-void harp_set_patch(Harp* harp, const Patch* patch, uint32_t n_frames);
+void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames);
 
 /**
    Tune the keys anew; what rings glides there by a gesture.

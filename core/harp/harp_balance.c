@@ -157,7 +157,7 @@ static Power sum(const Scene* scene, Turns* turns, uint32_t n_masses) {
   return power;
 }
 
-static Spectrum spectrum_for(const Patch* patch, const HarpBalance* string, Pluck pluck) {
+static Spectrum spectrum_for(const HarpPatch* patch, const HarpBalance* string, Pluck pluck) {
   const double hz = string->target.tone.f0_hz;
   const double angle1 = 2.0 * PI * hz / string->target.rate_hz;
   switch (patch->exciter) {
@@ -175,7 +175,8 @@ static Spectrum spectrum_for(const Patch* patch, const HarpBalance* string, Pluc
 }
 
 /* Where the harp's pickups are, or will be. */
-static void set_taps(Scene* scene, Turns* turns, const Patch* patch, const HarpBalance* string) {
+static void
+set_taps(Scene* scene, Turns* turns, const HarpPatch* patch, const HarpBalance* string) {
   const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
   HarpPickups pickups = {0};
   harp_pickups_set(&pickups, (HarpPlaces){patch->pickup_type, patch->pickup, patch->spread});
@@ -193,7 +194,7 @@ static void set_taps(Scene* scene, Turns* turns, const Patch* patch, const HarpB
   }
 }
 
-double harp_balance_gain(const Patch* patch, const HarpBalance* string, Pluck pluck) {
+double harp_balance_gain(const HarpPatch* patch, const HarpBalance* string, Pluck pluck) {
   Scene scene = {.pickup_type = patch->pickup_type, .rate_hz = string->target.rate_hz};
   Turns turns = {.angle = {PI / (string->n_masses + 1.0)}};
   if (tuning_solve(&string->target, string->n_masses, &scene.coefs)) {
@@ -204,7 +205,8 @@ double harp_balance_gain(const Patch* patch, const HarpBalance* string, Pluck pl
   turns.angle[EXCITED + 1] = scene.spectrum.angles[1];
   set_taps(&scene, &turns, patch, string);
   const Power power = sum(&scene, &turns, string->n_masses);
-  const double damping = patch->damping_per_s * exp2(patch->tracking * (MIDDLE_KEY - 69.0) / 12.0);
+  const double damping =
+      patch->string.damping_per_s * exp2(patch->string.tracking * (MIDDLE_KEY - 69.0) / 12.0);
   const double usual = kept(WINDOW_S * damping);
   const double share =
       patch->exciter == EXCITER_BOW

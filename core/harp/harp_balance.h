@@ -15,7 +15,7 @@
 #define HOOKE_CORE_HARP_HARP_BALANCE_H
 
 #include "core/excite/pluck.h"
-#include "core/harp/patch.h"
+#include "core/harp/harp_patch.h"
 #include "core/string/tuning.h"
 
 #include <stdint.h>
@@ -43,6 +43,6 @@ typedef struct {
    @param pluck  As it is given to harp_string_play()
    @return 1/HARP_BALANCE_MOST to HARP_BALANCE_MOST
 */
-double harp_balance_gain(const Patch* patch, const HarpBalance* string, Pluck pluck);
+double harp_balance_gain(const HarpPatch* patch, const HarpBalance* string, Pluck pluck);
 
 #endif

@@ -14,7 +14,7 @@ static const double REST_HZ = 5.0;
 static const double SILENT_REST_HZ = 100.0;
 static const double LEAST_REST = 1e-7;
 
-HarpPlaces harp_mixer_places(const Patch* patch) {
+HarpPlaces harp_mixer_places(const HarpPatch* patch) {
   return (HarpPlaces){patch->pickup_type, patch->pickup, patch->spread};
 }
 

@@ -10,6 +10,6 @@
 #include "core/harp/harp.h"
 
 /** Where a patch has strings read. */
-HarpPlaces harp_mixer_places(const Patch* patch);
+HarpPlaces harp_mixer_places(const HarpPatch* patch);
 
 #endif

@@ -10,7 +10,7 @@
 #define HOOKE_CORE_HARP_HARP_PICKUPS_H
 
 #include "core/base/ramp.h"
-#include "core/harp/patch.h"
+#include "core/harp/harp_patch.h"
 #include "core/string/chain_kernel.h"
 
 #include <stdbool.h>

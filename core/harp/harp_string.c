@@ -47,7 +47,7 @@ static void leave(HarpString* string) {
 }
 
 /* A pluck gives a ringing string the masses back that a bend took. */
-static void mesh_for_pluck(HarpString* string, const Patch* patch) {
+static void mesh_for_pluck(HarpString* string, const HarpPatch* patch) {
   if (string->voice.chain.n_masses < string->n_strung) {
     const TuningTarget target = harp_target(string, patch, harp_string_pitch_hz(string, patch));
     const uint32_t n_masses = tuning_max_masses(&target, string->n_strung);
@@ -57,8 +57,8 @@ static void mesh_for_pluck(HarpString* string, const Patch* patch) {
   }
 }
 
-double harp_string_pitch_hz(const HarpString* string, const Patch* patch) {
-  return patch->tuning_hz * exp2((string->semitones + string->touch.bend) / 12.0);
+double harp_string_pitch_hz(const HarpString* string, const HarpPatch* patch) {
+  return patch->string.tuning_hz * exp2((string->semitones + string->touch.bend) / 12.0);
 }
 
 void harp_string_init(
@@ -92,7 +92,7 @@ static double vibrato_of(const HarpString* string) {
 }
 
 /* Bring it to where it is to be after `n_glide` frames. */
-static bool glide(HarpString* string, const Patch* patch, uint32_t n_glide) {
+static bool glide(HarpString* string, const HarpPatch* patch, uint32_t n_glide) {
   const double swing = exp2(vibrato_semitones(&string->vibrato) / 12.0);
   const double f0_hz = swing * harp_string_pitch_hz(string, patch);
   const TuningTarget wanted = harp_target(string, patch, f0_hz);
@@ -103,10 +103,10 @@ static bool glide(HarpString* string, const Patch* patch, uint32_t n_glide) {
   return is_had;
 }
 
-static bool restring(HarpString* string, const Patch* patch, uint32_t n_glide) {
+static bool restring(HarpString* string, const HarpPatch* patch, uint32_t n_glide) {
   voice_choke(&string->voice, false);
   const TuningTarget target = harp_target(string, patch, harp_string_pitch_hz(string, patch));
-  const bool is_strung = voice_string(&string->voice, &target, patch->max_masses);
+  const bool is_strung = voice_string(&string->voice, &target, patch->string.max_masses);
   string->n_strung = is_strung ? string->voice.chain.n_masses : 0;
   string->vibrato = (Vibrato){0};
   string->tie = (Tie){0};
@@ -118,7 +118,7 @@ static bool restring(HarpString* string, const Patch* patch, uint32_t n_glide) {
 }
 
 /* The same, where it hangs on the way, and with its last pitch if the new one cannot be had. */
-static void glide_or_choke(HarpString* string, const Patch* patch, uint32_t n_glide) {
+static void glide_or_choke(HarpString* string, const HarpPatch* patch, uint32_t n_glide) {
   Voice* const voice = &string->voice;
   if (harp_string_is_touched(string)) {
     voice_feed(voice);
@@ -138,7 +138,7 @@ static void glide_or_choke(HarpString* string, const Patch* patch, uint32_t n_gl
 }
 
 /* The vibrato's next piece ends after `n_frames`. */
-static void swing(HarpString* string, const Patch* patch, uint32_t n_frames) {
+static void swing(HarpString* string, const HarpPatch* patch, uint32_t n_frames) {
   vibrato_go(&string->vibrato, patch->vibrato_hz / string->voice.rate_hz, n_frames);
   string->n_swing = n_frames;
 }
@@ -150,7 +150,7 @@ static void lean(HarpString* string, uint32_t n_glide) {
 }
 
 /* A vibrato is not stretched by slow changes. */
-void harp_string_retune(HarpString* string, const Patch* patch, uint32_t n_glide) {
+void harp_string_retune(HarpString* string, const HarpPatch* patch, uint32_t n_glide) {
   if (!string->voice.is_awake || string->voice.is_choked) {
     return;
   }
@@ -167,7 +167,7 @@ void harp_string_retune(HarpString* string, const Patch* patch, uint32_t n_glide
   glide_or_choke(string, patch, n_glide);
 }
 
-void harp_string_choke(HarpString* string, const Patch* patch, uint32_t n_glide) {
+void harp_string_choke(HarpString* string, const HarpPatch* patch, uint32_t n_glide) {
   if (string->voice.is_awake) {
     voice_choke(&string->voice, true);
     string->vibrato = (Vibrato){0};
@@ -186,7 +186,7 @@ static double place_for(Exciter exciter, double wanted) {
   return wanted > 0.5 ? 1.0 - at : at;
 }
 
-static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
+static void excite(HarpString* string, const HarpPatch* patch, Pluck pluck) {
   const Chain* const chain = &string->voice.chain;
   const double rate_hz = string->voice.rate_hz;
   const double angle1 = 2.0 * PI * string->voice.f0_hz / rate_hz;
@@ -219,7 +219,7 @@ static void excite(HarpString* string, const Patch* patch, Pluck pluck) {
   }
 }
 
-void harp_string_play(HarpString* string, const Patch* patch, Pluck pluck, uint32_t n_glide) {
+void harp_string_play(HarpString* string, const HarpPatch* patch, Pluck pluck, uint32_t n_glide) {
   string->lift = 1.0;
   if (string->voice.is_awake) {
     voice_choke(&string->voice, false);
@@ -245,7 +245,7 @@ void harp_string_lift(HarpString* string) {
   }
 }
 
-bool harp_string_wake(HarpString* string, const Patch* patch, uint32_t n_glide) {
+bool harp_string_wake(HarpString* string, const HarpPatch* patch, uint32_t n_glide) {
   if (!restring(string, patch, n_glide)) {
     return false;
   }
@@ -278,7 +278,7 @@ uint32_t harp_string_stretch(const HarpString* string) {
   return vibrato_is_still(&string->vibrato) ? n_wire : least(n_wire, string->n_swing);
 }
 
-void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames) {
+void harp_string_pass(HarpString* string, const HarpPatch* patch, uint32_t n_frames) {
   Voice* const voice = &string->voice;
   if (string->has_acted && (voice->n_until_look == n_frames || !harp_string_is_touched(string))) {
     voice_feed(voice);

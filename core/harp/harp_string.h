@@ -9,7 +9,7 @@
 
 #include "core/excite/bow.h"
 #include "core/excite/hammer.h"
-#include "core/harp/patch.h"
+#include "core/harp/harp_patch.h"
 #include "core/voice/intonation.h"
 #include "core/voice/tie.h"
 #include "core/voice/vibrato.h"
@@ -56,7 +56,7 @@ typedef struct {
 } HarpString;
 
 /** The pitch of a string [Hz], bent as its hand bends it but for the vibrato. */
-double harp_string_pitch_hz(const HarpString* string, const Patch* patch);
+double harp_string_pitch_hz(const HarpString* string, const HarpPatch* patch);
 
 /** Lay a string at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT; it
  * has the pitch of its key in equal temperament, and never more masses than `capacity`. */
@@ -75,7 +75,7 @@ void harp_string_rest(HarpString* string);
    @param pluck  As loud as a strike or a bow is to be; its hardness is the hammer's, or the bow's
    pressure
 */
-void harp_string_play(HarpString* string, const Patch* patch, Pluck pluck, uint32_t n_glide);
+void harp_string_play(HarpString* string, const HarpPatch* patch, Pluck pluck, uint32_t n_glide);
 
 /** Lift the bow, if there is one. */
 void harp_string_lift(HarpString* string);
@@ -85,14 +85,14 @@ void harp_string_lift(HarpString* string);
    voice_retune().  One that is choked, or asleep, is left alone; a pitch that cannot be had at all
    chokes it.
 */
-void harp_string_retune(HarpString* string, const Patch* patch, uint32_t n_glide);
+void harp_string_retune(HarpString* string, const HarpPatch* patch, uint32_t n_glide);
 
 /** Lay a hand on it: it is gone in a moment. */
-void harp_string_choke(HarpString* string, const Patch* patch, uint32_t n_glide);
+void harp_string_choke(HarpString* string, const HarpPatch* patch, uint32_t n_glide);
 
 /** Wake it, at rest, for the bridge to move; it is tied in `n_glide` frames.  False if it cannot
  * sound. */
-bool harp_string_wake(HarpString* string, const Patch* patch, uint32_t n_glide);
+bool harp_string_wake(HarpString* string, const HarpPatch* patch, uint32_t n_glide);
 
 /** Whether a hammer or a bow is at it, which asks for harp_string_act() after every frame. */
 bool harp_string_is_touched(const HarpString* string);
@@ -105,6 +105,6 @@ bool harp_string_act(HarpString* string);
 uint32_t harp_string_stretch(const HarpString* string);
 
 /** After `n_frames`, at most its stretch: let the vibrato act, and see voice_pass(). */
-void harp_string_pass(HarpString* string, const Patch* patch, uint32_t n_frames);
+void harp_string_pass(HarpString* string, const HarpPatch* patch, uint32_t n_frames);
 
 #endif

@@ -6,8 +6,15 @@
 #ifndef HOOKE_CORE_STRING_PICKUP_H
 #define HOOKE_CORE_STRING_PICKUP_H
 
-#include "core/harp/patch.h"
 #include "core/string/chain.h"
+
+/** What pickups hear of a string; about as loud in all. */
+typedef enum {
+  PICKUP_DISPLACEMENT, /**< How far it is from rest */
+  PICKUP_VELOCITY, /**< How fast it moves, as a magnet with a coil does: brighter by 6 dB an octave
+                    */
+  PICKUP_FORCE     /**< How it pulls at the bridge, as a piezo does; wherever the pickup is */
+} PickupType;
 
 /**
    The tap that reads a string at `place`, in a straight line between the two masses beside it; the

@@ -1,6 +1,7 @@
 /* Any bytes are a score that a guitar can play, or are refused with a word on which line and why.
  */
 #include "core/guitar/guitar_event.h"
+#include "plugin/guitar_ports.h"
 #include "tests/fuzz/fuzz.h"
 #include "tools/formats/score.h"
 
@@ -34,7 +35,9 @@ static void claim_order(const Score* score) {
 /* A guitar takes no event that is not in range. */
 static void claim_playable(const Score* score) {
   static Guitar* guitar;
+  const GuitarPatch patch = guitar_ports_usual();
   guitar = guitar ? guitar : guitar_new(8000.0);
+  guitar_set_patch(guitar, &patch, 0);
   guitar_reset(guitar);
   for (size_t i = 0; i < score->n_events && i < PLAYED; ++i) {
     FUZZ_CLAIM(guitar_event_play(guitar, &score->events[i].event));

@@ -1,6 +1,7 @@
 /* A string that is plucked again is stopped by the plectrum first: notes that follow each other
  * sound alike, and begin in tune. */
 #include "core/guitar/guitar.h"
+#include "tests/support/guitars.h"
 #include "tests/support/measure.h"
 
 #include <math.h>
@@ -19,9 +20,8 @@ static float left[N_FRAMES];
 static float right[N_FRAMES];
 
 static Guitar* make(void) {
-  Guitar* const guitar = guitar_new(RATE);
-  assert_non_null(guitar);
-  return guitar;
+  const GuitarPatch patch = guitars_patch();
+  return guitars_new(RATE, &patch);
 }
 
 static double largest_step(const float* samples, size_t n) {

@@ -82,13 +82,13 @@ static double draw(Random* random, double low, double high) {
 
 static GuitarPatch draw_patch(Random* random, uint32_t string, double fret) {
   GuitarPatch patch = guitars_patch();
-  Patch* const p = &patch.string;
+  StringPatch* const p = &patch.string;
   p->loss = draw(random, 1e-5, 1.0);
   p->inharmonicity = random_below(random, 3) ? 0.0 : draw(random, 1e-6, 0.1);
   p->tracking = random_below(random, 2) ? 0.5 : random_between(random, 0.0, 1.0);
   p->tuning_hz = random_below(random, 2) ? 440.0 : random_between(random, 400.0, 480.0);
   p->max_masses = (uint32_t)draw(random, 1.0, GUITAR_MAX_MASSES);
-  p->pluck = 0.3;
+  patch.pluck = 0.3;
   patch.capo = random_below(random, 2) ? 0.0 : random_below(random, 9);
   patch.pickups[0].place = 0.3;
   p->damping_per_s = 1.0;

@@ -75,7 +75,7 @@ static void holds_of(Deed deed, uint32_t string, const GuitarPatch* patch, Hold*
   to->palm = deed == DO_PALM ? 1.0 : 0.0;
   to->patch.open[string] += deed == DO_OPEN ? 5.0 : 0.0;
   to->patch.capo = deed == DO_CAPO ? 5.0 : 0.0;
-  to->patch.string.level = deed == DO_LEVEL ? 0.1 : 1.0;
+  to->patch.level = deed == DO_LEVEL ? 0.1 : 1.0;
   if (deed == DO_PICKUP) {
     to->patch.pickups[0].place = to->patch.pickups[1].place = 0.45;
   }
@@ -131,7 +131,7 @@ static GuitarPatch patch_of(Deed deed, bool is_first_read) {
   GuitarPatch patch = guitars_patch();
   patch.pickups[0].gain = is_first_read ? 1.0 : 0.0;
   patch.pickups[1].gain = is_first_read ? 0.0 : 1.0;
-  patch.string.hardness = deed == DO_HAMMER || deed == DO_PULL ? 0.4 : 0.2;
+  patch.hardness = deed == DO_HAMMER || deed == DO_PULL ? 0.4 : 0.2;
   return patch;
 }
 
@@ -170,7 +170,7 @@ static Edge edge_of_deed(Guitar* guitar, const Case* c) {
   }
   const uint32_t n_deed = (c->deed == DO_SLIDE ? SLIDE : 0) + 3 * GESTURE;
   Hold part = to;
-  part.patch.string.pluck *= exp2((from.fret - to.fret - to.patch.capo) / 12.0);
+  part.patch.pluck *= exp2((from.fret - to.fret - to.patch.capo) / 12.0);
   Edge most =
       larger(edge_of_pluck(guitar, c->string, &from), edge_of_pluck(guitar, c->string, &to));
   most = larger(most, edge_of_pluck(guitar, c->string, &part));

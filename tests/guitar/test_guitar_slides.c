@@ -78,8 +78,8 @@ static GuitarPatch dark_patch(void) {
   patch.string.loss = 1.0;
   patch.string.damping_per_s = 1.0;
   patch.string.tracking = 0.0;
-  patch.string.hardness = 0.0;
-  patch.string.pluck = 0.5;
+  patch.hardness = 0.0;
+  patch.pluck = 0.5;
   patch.pickups[0].place = 0.4;
   return patch;
 }

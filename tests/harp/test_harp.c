@@ -18,19 +18,19 @@ static const double PI = 3.14159265358979323846;
 static float left[MOST_FRAMES];
 static float right[MOST_FRAMES];
 
-static const Patch plain = {
+static const HarpPatch plain = {
     .level = 1.0,
-    .damping_per_s = 1.0,
-    .loss = 0.01,
+    .string.damping_per_s = 1.0,
+    .string.loss = 0.01,
     .pickup = 0.12,
     .pluck = 0.2,
     .hardness = 0.5,
-    .release_s = 0.05,
-    .tuning_hz = 440.0,
-    .max_masses = CHAIN_MAX_MASSES,
+    .string.release_s = 0.05,
+    .string.tuning_hz = 440.0,
+    .string.max_masses = CHAIN_MAX_MASSES,
 };
 
-static Harp* new_harp(double rate_hz, const Patch* patch) {
+static Harp* new_harp(double rate_hz, const HarpPatch* patch) {
   Harp* const harp = harp_new(rate_hz);
   assert_non_null(harp);
   harp_set_patch(harp, patch, 0);
@@ -100,8 +100,8 @@ static void key_at_or_above_nyquist_is_silent(void** state) {
 
 static void dead_string_sleeps_in_exact_zeros(void** state) {
   (void)state;
-  Patch patch = plain;
-  patch.damping_per_s = 20.0;
+  HarpPatch patch = plain;
+  patch.string.damping_per_s = 20.0;
   Harp* const harp = new_harp(48000.0, &patch);
   const HarpString* const string = &harp->strings[A4];
   harp_note_on(harp, 0, A4, 127);
@@ -136,8 +136,8 @@ static void no_string_sleeps_before_120_db(void** state) {
     for (int step = 0; step < 30; step += keys[k] < 108 ? 14 : 1) {
       const double damping = 6.0 * pow(1.08, step);
       const HarpString* const string = &harp->strings[keys[k]];
-      Patch patch = plain;
-      patch.damping_per_s = damping;
+      HarpPatch patch = plain;
+      patch.string.damping_per_s = damping;
       harp_reset(harp);
       harp_set_patch(harp, &patch, 0);
       harp_note_on(harp, 0, keys[k], 90);
@@ -263,8 +263,8 @@ static void all_notes_off_is_every_key_up(void** state) {
 
 static void all_sound_off_is_silence_in_a_moment(void** state) {
   (void)state;
-  Patch patch = plain;
-  patch.release_s = 10.0;
+  HarpPatch patch = plain;
+  patch.string.release_s = 10.0;
   Harp* const harp = new_harp(48000.0, &patch);
   harp_pedal(harp, 0, 1.0);
   for (uint32_t key = 30; key < 90; ++key) {

@@ -30,7 +30,7 @@ static float left[MOST];
 static float right[MOST];
 
 /* A note, from what it should be [dB]. */
-static double off(Harp* harp, const Patch* patch, uint32_t key, uint32_t velocity) {
+static double off(Harp* harp, const HarpPatch* patch, uint32_t key, uint32_t velocity) {
   const double seconds = patch->exciter == EXCITER_BOW ? 1.0 : 0.5;
   const size_t n = (size_t)(seconds * harp->rate_hz);
   harps_restart(harp, patch);
@@ -64,13 +64,13 @@ static double worst_of(Span span) {
   return fmax(-span.least, span.most);
 }
 
-static void print_span(const Patch* patch, Span span) {
+static void print_span(const HarpPatch* patch, Span span) {
   print_message("  %-7s%-13s %5.1f to %4.1f dB\n", harps_exciter(patch->exciter),
                 harps_sense(patch->pickup_type), span.least, span.most);
 }
 
 /* Over the places and keys. */
-static Span span_of(Harp* harp, Patch patch, uint32_t velocity, uint32_t step) {
+static Span span_of(Harp* harp, HarpPatch patch, uint32_t velocity, uint32_t step) {
   Span span = nothing;
   for (int p = 0; p < N_PLACES; ++p) {
     for (int q = 0; q < N_PLACES; ++q) {
@@ -89,7 +89,7 @@ static void plucks_and_strikes_are_as_loud(void** state) {
   double worst = 0.0;
   Span plucked = nothing;
   for (uint32_t way = 0; way < BOWED; ++way) {
-    const Patch patch = harps_patch(way);
+    const HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(48000.0, &patch);
     const Span span = span_of(harp, patch, 100, stride(7));
     print_span(&patch, span);
@@ -109,10 +109,10 @@ static void picks_at_strings_of_many_masses_are_as_loud(void** state) {
   (void)state;
   Span span = nothing;
   for (uint32_t way = 0; way < HARPS_N_SENSES; ++way) {
-    Patch patch = harps_patch(way);
+    HarpPatch patch = harps_patch(way);
     patch.hardness = 1.0;
-    patch.loss = 1e-5;
-    patch.max_masses = 1024;
+    patch.string.loss = 1e-5;
+    patch.string.max_masses = 1024;
     patch.pluck = 0.02;
     Harp* const harp = harps_new(48000.0, &patch);
     Span one = nothing;
@@ -136,7 +136,7 @@ static void bows_are_as_loud(void** state) {
   double worst = 0.0;
   double worst_high = 0.0;
   for (uint32_t way = BOWED; way < HARPS_N_WAYS; ++way) {
-    Patch patch = harps_patch(way);
+    HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(48000.0, &patch);
     Span low = nothing;
     Span high = nothing;
@@ -165,7 +165,7 @@ static void loudness_goes_with_the_square_of_velocity(void** state) {
   static const uint32_t velocities[] = {40, 100, 127};
   double worst = 0.0;
   for (uint32_t way = 0; way < BOWED; ++way) {
-    const Patch patch = harps_patch(way);
+    const HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(48000.0, &patch);
     Span span = nothing;
     for (int v = 0; v < 3; ++v) {
@@ -186,12 +186,12 @@ static void width_loss_and_rate_do_not_matter(void** state) {
   double worst = 0.0;
   for (int r = 0; r < 2; ++r) {
     for (uint32_t way = 0; way < BOWED; ++way) {
-      Patch patch = harps_patch(way);
+      HarpPatch patch = harps_patch(way);
       Harp* const harp = harps_new(rates_hz[r], &patch);
       Span span = nothing;
       for (int i = 0; i < 4; ++i) {
         patch.spread = i & 1 ? 0.3 : 0.0;
-        patch.loss = i & 2 ? 0.3 : 0.001;
+        patch.string.loss = i & 2 ? 0.3 : 0.001;
         const Span one = span_of(harp, patch, 100, stride(31));
         stretch_to(&span, one.least);
         stretch_to(&span, one.most);
@@ -209,10 +209,10 @@ static void what_dies_at_once_is_not_played_harder(void** state) {
   (void)state;
   double worst = 0.0;
   for (uint32_t way = 0; way < BOWED; ++way) {
-    Patch patch = harps_patch(way);
+    HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(48000.0, &patch);
     Span span = nothing;
-    patch.damping_per_s = 50.0;
+    patch.string.damping_per_s = 50.0;
     /* Of 30/s at key 60, as core/harp/harp_balance.h has it; and of the default. */
     const double y = 0.4 * 50.0 * exp2(-4.5 / 12.0);
     const double usual = 0.4 * 0.6 * exp2(-4.5 / 12.0);

@@ -26,13 +26,13 @@ static const double pickups[N_PLACES] = {0.05, 0.2, 0.35, 0.5};
 static float left[MOST];
 static float right[MOST];
 
-static HarpBalance string_of(const Patch* patch, double rate_hz, uint32_t key) {
+static HarpBalance string_of(const HarpPatch* patch, double rate_hz, uint32_t key) {
   const TuningTarget target = {.rate_hz = rate_hz,
                                .tone = harps_tone(patch, key, 0.0),
-                               .loss = patch->loss,
-                               .inharmonicity = patch->inharmonicity,
-                               .partials = patch->partials};
-  return (HarpBalance){target, tuning_max_masses(&target, patch->max_masses), key, 0.25};
+                               .loss = patch->string.loss,
+                               .inharmonicity = patch->string.inharmonicity,
+                               .partials = patch->string.partials};
+  return (HarpBalance){target, tuning_max_masses(&target, patch->string.max_masses), key, 0.25};
 }
 
 /* |H|² of both filters as BS.1770 prints them, for 48 kHz. */
@@ -53,7 +53,7 @@ static double left_of(double damping_per_s) {
 }
 
 /* Both sides' readings of the one mass, squared: from half way to a wall half of it is read. */
-static double square_of_readings(const Patch* patch) {
+static double square_of_readings(const HarpPatch* patch) {
   const double far = patch->spread > 0.0 ? 0.5 : 1.0;
   const double reading = patch->pickup_type == PICKUP_FORCE      ? 0.18 * 2.0 / PI
                          : patch->pickup_type == PICKUP_VELOCITY ? 0.24 * far
@@ -62,8 +62,9 @@ static double square_of_readings(const Patch* patch) {
 }
 
 /* A sine of 4/π, read, weighed, and decayed. */
-static double gain_by_hand(const Patch* patch, Tone tone) {
-  const double usual = left_of(patch->damping_per_s * exp2(-patch->tracking * 9.0 / 12.0));
+static double gain_by_hand(const HarpPatch* patch, Tone tone) {
+  const double usual =
+      left_of(patch->string.damping_per_s * exp2(-patch->string.tracking * 9.0 / 12.0));
   const double plain = 0.5 * 16.0 / (PI * PI) * square_of_readings(patch);
   const double share = fmin(fmax(left_of(1.0 / tone.tau_s), 0.1 * usual), 10.0 * usual);
   const double gain = sqrt(0.5 * usual / (plain * k_weight(tone.f0_hz) * share));
@@ -79,12 +80,12 @@ static void gains_of_one_mass_are_those_by_hand(void** state) {
   Random random = random_start();
   double worst = 0.0;
   for (int trial = 0; trial < 5000; ++trial) {
-    Patch patch = harps_patch(random_below(&random, HARPS_N_SENSES));
+    HarpPatch patch = harps_patch(random_below(&random, HARPS_N_SENSES));
     patch.pickup = 0.5;
     patch.spread = random_below(&random, 2) ? 0.5 : 0.0;
-    patch.damping_per_s = random_log_between(&random, 0.02, 200.0);
-    patch.tracking = random_between(&random, 0.0, 1.0);
-    patch.max_masses = 1;
+    patch.string.damping_per_s = random_log_between(&random, 0.02, 200.0);
+    patch.string.tracking = random_between(&random, 0.0, 1.0);
+    patch.string.max_masses = 1;
     const HarpBalance string = string_of(&patch, 48000.0, 9 + random_below(&random, 88));
     const Pluck pluck = {random_between(&random, 0.0, 1.0), 0.5, 0.1};
     if (2.0 * PI * string.target.tone.f0_hz * string.target.tone.tau_s < LEAST_SWING) {
@@ -103,15 +104,15 @@ static void gains_are_bounded(void** state) {
   (void)state;
   Random random = random_start();
   for (int trial = 0; trial < 20000; ++trial) {
-    Patch patch = harps_patch(random_below(&random, HARPS_N_WAYS));
+    HarpPatch patch = harps_patch(random_below(&random, HARPS_N_WAYS));
     patch.pluck = 0.25 * random_below(&random, 5);
     patch.pickup = random_below(&random, 2) ? 0.5 * random_below(&random, 3)
                                             : random_between(&random, 0.0, 1.0);
     patch.spread = random_below(&random, 2) ? 0.0 : 0.5;
     patch.hardness = 0.5 * random_below(&random, 3);
-    patch.loss = random_log_between(&random, 1e-5, 1.0);
-    patch.damping_per_s = random_log_between(&random, 0.02, 200.0);
-    patch.max_masses = 1 + random_below(&random, random_below(&random, 2) ? 5 : 1024);
+    patch.string.loss = random_log_between(&random, 1e-5, 1.0);
+    patch.string.damping_per_s = random_log_between(&random, 0.02, 200.0);
+    patch.string.max_masses = 1 + random_below(&random, random_below(&random, 2) ? 5 : 1024);
     const HarpBalance string = string_of(&patch, 48000.0, random_below(&random, 128));
     const Pluck pluck = {patch.pluck, patch.hardness, random_log_between(&random, 1e-5, 0.25)};
     const double gain = harp_balance_gain(&patch, &string, pluck);
@@ -124,7 +125,7 @@ static void what_is_too_low_is_not_played_harder(void** state) {
   (void)state;
   double worst = 0.0;
   for (uint32_t way = 0; way < BOWED; ++way) {
-    Patch patch = harps_patch(way);
+    HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(48000.0, &patch);
     for (int p = 0; p < N_PLACES; ++p) {
       patch.pluck = plucks[p];
@@ -146,7 +147,7 @@ static void what_is_too_low_is_not_played_harder(void** state) {
 /* What is read has nothing to do with how hard it was played. */
 static void a_wall_is_still_silent(void** state) {
   (void)state;
-  Patch patch = harps_patch(0);
+  HarpPatch patch = harps_patch(0);
   patch.pickup = 0.0;
   patch.spread = 0.0;
   Harp* const harp = harps_new(48000.0, &patch);
@@ -165,7 +166,7 @@ static void each_side_of_a_string_can_be_played(void** state) {
   double worst = 0.0;
   for (int p = 0; p < N_PLACES; ++p) {
     for (uint32_t way = HARPS_N_SENSES; way < HARPS_N_WAYS; ++way) {
-      Patch patch = harps_patch(way);
+      HarpPatch patch = harps_patch(way);
       patch.pluck = asked[p];
       Harp* const harp = harps_new(48000.0, &patch);
       harp_note_on(harp, 0, 60, 100);

@@ -58,7 +58,7 @@ static double motion_of(const HarpString* string) {
   return chain_amplitude(&string->voice.chain, a1) * sqrt(sqrt(a1));
 }
 
-static Patch patch_of(const String* s) {
+static HarpPatch patch_of(const String* s) {
   Setting setting = settings_default();
   setting.value[SETTING_DAMPING] = 0.3;
   setting.value[SETTING_LOSS] = s->loss;
@@ -66,8 +66,8 @@ static Patch patch_of(const String* s) {
   setting.value[SETTING_MASSES] = CHAIN_MAX_MASSES;
   setting.value[SETTING_PLUCK] = 0.4;
   setting.value[SETTING_HARDNESS] = 0.0;
-  Patch patch = settings_patch(&setting);
-  patch.inharmonicity = s->stiffness;
+  HarpPatch patch = settings_patch(&setting);
+  patch.string.inharmonicity = s->stiffness;
   patch.pickup = 0.45;
   patch.spread = 0.0;
   return patch;
@@ -149,7 +149,7 @@ static void bends_are_in_tune_and_do_not_click(void** state) {
   for (int s = 0; s < N_STRINGS; ++s) {
     Harp* const harp = harp_new(strings[s].rate_hz);
     assert_non_null(harp);
-    const Patch patch = patch_of(&strings[s]);
+    const HarpPatch patch = patch_of(&strings[s]);
     harp_set_patch(harp, &patch, 0);
     for (int w = 0; w < N_WAYS; ++w) {
       harp_reset(harp);
@@ -173,7 +173,7 @@ static void bends_are_in_tune_and_do_not_click(void** state) {
 static void a_click_is_found(void** state) {
   (void)state;
   const String* const s = &strings[2];
-  const Patch patch = patch_of(s);
+  const HarpPatch patch = patch_of(s);
   const uint32_t at = (uint32_t)(0.1 * s->rate_hz);
   const uint32_t n_move = (uint32_t)(0.02 * s->rate_hz);
   Harp* const harp = harp_new(s->rate_hz);

@@ -19,8 +19,8 @@ enum { RATE = 48000, MOST_FRAMES = 5 * RATE };
 static float left[MOST_FRAMES];
 static float right[MOST_FRAMES];
 
-static Patch patch_with(double resonance) {
-  Patch patch = harps_patch(0);
+static HarpPatch patch_with(double resonance) {
+  HarpPatch patch = harps_patch(0);
   patch.resonance = resonance;
   patch.spread = 0.0;
   return patch;
@@ -32,7 +32,7 @@ static bool is_awake(const Harp* harp, uint32_t key) {
 
 static void without_resonance_there_is_no_bridge(void** state) {
   (void)state;
-  const Patch patch = patch_with(0.0);
+  const HarpPatch patch = patch_with(0.0);
   Harp* const harp = harps_new(RATE, &patch);
   harp_pedal(harp, 0, 1.0);
   harp_note_on(harp, 0, 57, 127);
@@ -50,8 +50,8 @@ static void without_resonance_there_is_no_bridge(void** state) {
 static void bridge_leaves_nothing_behind(void** state) {
   (void)state;
   static float fresh[RATE];
-  const Patch still = patch_with(0.0);
-  const Patch moving = patch_with(0.7);
+  const HarpPatch still = patch_with(0.0);
+  const HarpPatch moving = patch_with(0.7);
   Harp* const harp = harps_new(RATE, &still);
   harp_note_on(harp, 0, 57, 90);
   harp_run(harp, RATE, fresh, right);
@@ -84,7 +84,7 @@ static void press_pedal_and_play(Harp* harp, uint32_t n_frames) {
 static void strings_wake_in_the_same_order_again(void** state) {
   (void)state;
   static float fresh[RATE];
-  const Patch patch = patch_with(0.7);
+  const HarpPatch patch = patch_with(0.7);
   Harp* const harp = harps_new(RATE, &patch);
   press_pedal_and_play(harp, RATE);
   memcpy(fresh, left, sizeof(fresh));
@@ -104,7 +104,7 @@ static void strings_wake_in_the_same_order_again(void** state) {
 static double answer_db(uint32_t played, uint32_t answering, double resonance, double after_s) {
   static float middle[RATE / 4];
   static float other[RATE / 4];
-  const Patch patch = patch_with(resonance);
+  const HarpPatch patch = patch_with(resonance);
   Harp* const harp = harps_new(RATE, &patch);
   harp_pedal(harp, 0, 1.0);
   harp_note_on(harp, 0, played, 110);
@@ -137,7 +137,7 @@ static void open_octaves_answer_and_others_less(void** state) {
 /* What the pedal adds to the second second of a note, in decibels of the note. */
 static double halo_db(uint32_t key, double resonance) {
   static float dry[2 * RATE];
-  const Patch patch = patch_with(resonance);
+  const HarpPatch patch = patch_with(resonance);
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 0, key, 110);
   harp_run(harp, 2 * RATE, dry, right);
@@ -165,7 +165,7 @@ static void pedal_is_heard(void** state) {
 
 static void damped_strings_sleep_on(void** state) {
   (void)state;
-  const Patch patch = patch_with(1.0);
+  const HarpPatch patch = patch_with(1.0);
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 0, 57, 127);
   harp_run(harp, RATE, left, right);
@@ -177,7 +177,7 @@ static void damped_strings_sleep_on(void** state) {
 /* The pedal lifts all dampers, whenever it comes down; each of the keys of a piano has a string. */
 static void pedal_opens_all_strings_and_closes_them(void** state) {
   (void)state;
-  const Patch patch = patch_with(0.5);
+  const HarpPatch patch = patch_with(0.5);
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 0, 57, 127);
   harp_run(harp, RATE / 10, left, right);
@@ -202,8 +202,8 @@ static void pedal_opens_all_strings_and_closes_them(void** state) {
 /* A key that is held opens its own string, long after it has died away. */
 static void held_key_answers(void** state) {
   (void)state;
-  Patch patch = patch_with(0.5);
-  patch.damping_per_s = 10.0;
+  HarpPatch patch = patch_with(0.5);
+  patch.string.damping_per_s = 10.0;
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 0, 69, 1);
   harp_run(harp, 3 * RATE, left, right);
@@ -219,9 +219,9 @@ static void held_key_answers(void** state) {
 /* A string under its damper is let go, and rings on in the numbers that it would have alone. */
 static void string_whose_damper_falls_is_let_go(void** state) {
   (void)state;
-  Patch patch = patch_with(1.0);
-  patch.release_s = 10.0;
-  patch.damping_per_s = 0.1;
+  HarpPatch patch = patch_with(1.0);
+  patch.string.release_s = 10.0;
+  patch.string.damping_per_s = 0.1;
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 0, 57, 127);
   harp_run(harp, RATE / 10, left, right);
@@ -237,9 +237,9 @@ static void string_whose_damper_falls_is_let_go(void** state) {
 /* Nobody plays any more: everything comes to rest by itself, in exact zeros. */
 static void all_that_answers_dies_away(void** state) {
   (void)state;
-  Patch patch = patch_with(0.8);
-  patch.damping_per_s = 12.0;
-  patch.tracking = 0.0;
+  HarpPatch patch = patch_with(0.8);
+  patch.string.damping_per_s = 12.0;
+  patch.string.tracking = 0.0;
   Harp* const harp = harps_new(RATE, &patch);
   harp_pedal(harp, 0, 1.0);
   harp_note_on(harp, 0, 45, 127);

@@ -18,15 +18,15 @@ enum { RATE = 48000 };
 static float left[2 * RATE];
 static float right[2 * RATE];
 
-static Patch patch_with(double resonance) {
-  Patch patch = harps_patch(0);
+static HarpPatch patch_with(double resonance) {
+  HarpPatch patch = harps_patch(0);
   patch.resonance = resonance;
   patch.spread = 0.0;
   return patch;
 }
 
 /* Measured on what is heard, from a tenth of a second on. */
-static Tone heard(const Patch* patch, uint32_t key, double bend, double lift, size_t n_frames) {
+static Tone heard(const HarpPatch* patch, uint32_t key, double bend, double lift, size_t n_frames) {
   Tone tone = {0};
   Harp* const harp = harps_new(RATE, patch);
   harp_pedal(harp, 0, lift);
@@ -48,8 +48,8 @@ static void string_alone_is_exact(void** state) {
   double worst_cents = 0.0;
   double worst_decay = 0.0;
   for (uint32_t i = 0; i < 3; ++i) {
-    Patch patch = patch_with(resonances[i]);
-    patch.damping_per_s = 2.0;
+    HarpPatch patch = patch_with(resonances[i]);
+    patch.string.damping_per_s = 2.0;
     for (uint32_t key = 24; key < 108; key += 7) {
       const double bend = i == 1 ? 2.0 : 0.0;
       const Tone asked = harps_tone(&patch, key, bend);
@@ -65,7 +65,7 @@ static void string_alone_is_exact(void** state) {
 /* The promise: a moderate resonance, the pedal down, all strings open. */
 static void moderate_resonance_leaves_the_pitch(void** state) {
   (void)state;
-  const Patch patch = patch_with(0.5);
+  const HarpPatch patch = patch_with(0.5);
   double worst = 0.0;
   for (uint32_t key = 21; key <= 108; key += 8) {
     const Tone tone = heard(&patch, key, 0.0, 1.0, RATE);
@@ -77,8 +77,8 @@ static void moderate_resonance_leaves_the_pitch(void** state) {
 /* A bend that takes masses from a string and gives them back at the next note. */
 static void tie_follows_the_masses(void** state) {
   (void)state;
-  Patch patch = patch_with(1.0);
-  patch.damping_per_s = 2.0;
+  HarpPatch patch = patch_with(1.0);
+  patch.string.damping_per_s = 2.0;
   Harp* const harp = harps_new(RATE, &patch);
   const HarpString* const string = &harp->strings[69];
   Tone tone = {0};
@@ -114,7 +114,7 @@ static void run_and_watch(Harp* harp, uint32_t key, size_t n, float* middle) {
 /* The fundamental of a string that nobody played, while it answers its octave. */
 static void answering_string_is_in_tune(void** state) {
   (void)state;
-  const Patch patch = patch_with(0.5);
+  const HarpPatch patch = patch_with(0.5);
   Harp* const harp = harps_new(RATE, &patch);
   Tone tone = {0};
   harp_pedal(harp, 0, 1.0);

@@ -20,19 +20,19 @@ enum { STORM = 12000, CALM = 24000, MOST_BLOCK = 1000 };
 static float left[2][CALM];
 static float right[2][CALM];
 
-static Patch draw_patch(Random* random) {
+static HarpPatch draw_patch(Random* random) {
   static const uint32_t most_masses[] = {1, 4, 24, 80};
-  Patch patch = harps_patch(random_below(random, HARPS_N_WAYS));
+  HarpPatch patch = harps_patch(random_below(random, HARPS_N_WAYS));
   patch.resonance =
       random_below(random, 3) ? random_between(random, 0.0, 1.0) : (double)random_below(random, 2);
-  patch.damping_per_s = random_log_between(random, 0.02, 200.0);
-  patch.tracking = random_between(random, 0.0, 1.0);
-  patch.loss = random_log_between(random, 1e-5, 1.0);
-  patch.inharmonicity = random_log_between(random, 1e-6, 0.1);
-  patch.partials = (Partials)random_below(random, 3);
-  patch.release_s = random_log_between(random, 0.005, 10.0);
-  patch.tuning_hz = random_between(random, 400.0, 480.0);
-  patch.max_masses = most_masses[random_below(random, 4)];
+  patch.string.damping_per_s = random_log_between(random, 0.02, 200.0);
+  patch.string.tracking = random_between(random, 0.0, 1.0);
+  patch.string.loss = random_log_between(random, 1e-5, 1.0);
+  patch.string.inharmonicity = random_log_between(random, 1e-6, 0.1);
+  patch.string.partials = (Partials)random_below(random, 3);
+  patch.string.release_s = random_log_between(random, 0.005, 10.0);
+  patch.string.tuning_hz = random_between(random, 400.0, 480.0);
+  patch.string.max_masses = most_masses[random_below(random, 4)];
   return patch;
 }
 
@@ -64,7 +64,7 @@ static void gesture(Harp* harp, Random* random) {
     }
     break;
   default: {
-    const Patch patch = draw_patch(random);
+    const HarpPatch patch = draw_patch(random);
     harp_set_patch(harp, &patch, random_below(random, 1000));
   }
   }
@@ -72,7 +72,7 @@ static void gesture(Harp* harp, Random* random) {
 
 /* The loudest sample over a full note's, and the least stability. */
 static double storm(double rate_hz, Random* random, double* headroom) {
-  const Patch patch = draw_patch(random);
+  const HarpPatch patch = draw_patch(random);
   Harp* const harp = harps_new(rate_hz, &patch);
   double peak = 0.0;
   harp_pedal(harp, 0, 1.0);
@@ -112,10 +112,10 @@ static void storms_do_not_explode(void** state) {
  * for long. */
 static void bends_in_time_do_not_feed_the_bridge(void** state) {
   (void)state;
-  Patch patch = harps_patch(0);
+  HarpPatch patch = harps_patch(0);
   patch.resonance = 1.0;
-  patch.damping_per_s = 0.02;
-  patch.max_masses = 16;
+  patch.string.damping_per_s = 0.02;
+  patch.string.max_masses = 16;
   double most = 0.0;
   for (uint32_t period = 200; period < 240; period += 20) {
     Harp* const harp = harps_new(48e3, &patch);
@@ -136,7 +136,7 @@ static void bends_in_time_do_not_feed_the_bridge(void** state) {
 /* The same storm, in blocks of its own. */
 static void play(uint64_t seed, uint32_t block, float* l, float* r) {
   Random random = {seed};
-  const Patch patch = draw_patch(&random);
+  const HarpPatch patch = draw_patch(&random);
   Harp* const harp = harps_new(48e3, &patch);
   harp_pedal(harp, 0, 1.0);
   for (uint32_t done = 0; done < CALM;) {
@@ -169,8 +169,8 @@ static void blocks_do_not_change_the_sound(void** state) {
 static void moving_resonance_makes_no_step(void** state) {
   (void)state;
   static const double levels[] = {0.0, 1.0, 0.3, 0.0, 0.7};
-  Patch patch = harps_patch(0);
-  patch.damping_per_s = 0.1;
+  HarpPatch patch = harps_patch(0);
+  patch.string.damping_per_s = 0.1;
   Harp* const harp = harps_new(48e3, &patch);
   harp_pedal(harp, 0, 1.0);
   for (uint32_t key = 45; key < 80; key += 7) {

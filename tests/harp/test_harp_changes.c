@@ -20,17 +20,17 @@ typedef struct {
   float right[FRAMES];
 } Sound;
 
-static const Patch plain = {
+static const HarpPatch plain = {
     .level = 1.0,
-    .damping_per_s = 1.0,
-    .loss = 0.01,
+    .string.damping_per_s = 1.0,
+    .string.loss = 0.01,
     .pickup = 0.12,
     .spread = 0.1,
     .pluck = 0.2,
     .hardness = 0.5,
-    .release_s = 0.05,
-    .tuning_hz = 440.0,
-    .max_masses = 300,
+    .string.release_s = 0.05,
+    .string.tuning_hz = 440.0,
+    .string.max_masses = 300,
 };
 
 /* The largest change from one sample to the next in `from` ≤ n < `to`. */
@@ -46,8 +46,8 @@ static double largest_step(const Sound* sound, uint32_t from, uint32_t to) {
 /* A note during which `before` becomes `after`, in n_glide frames. */
 static void play_change(Sound* sound,
                         Harp* harp,
-                        const Patch* before,
-                        const Patch* after,
+                        const HarpPatch* before,
+                        const HarpPatch* after,
                         uint32_t at,
                         uint32_t n_glide) {
   harp_reset(harp);
@@ -62,7 +62,7 @@ static void play_change(Sound* sound,
   The largest step around a change, over what it may be: the largest that either patch makes by
   itself in the same frames, and what crossing from one to the other in a straight line adds.
 */
-static double step_of_change(Harp* harp, const Patch* after, uint32_t at, uint32_t n_glide) {
+static double step_of_change(Harp* harp, const HarpPatch* after, uint32_t at, uint32_t n_glide) {
   static Sound old;
   static Sound new;
   static Sound changed;
@@ -78,7 +78,7 @@ static double step_of_change(Harp* harp, const Patch* after, uint32_t at, uint32
 static void change_of_patch_makes_no_step(void** state) {
   (void)state;
   enum { PATCHES = 9 };
-  Patch patches[PATCHES];
+  HarpPatch patches[PATCHES];
   double worst = 0.0;
   Harp* const harp = harp_new(48000.0);
   assert_non_null(harp);
@@ -88,13 +88,13 @@ static void change_of_patch_makes_no_step(void** state) {
   patches[0].pickup = 0.5;
   patches[1].spread = 0.0;
   patches[2].level = 0.1;
-  patches[3].damping_per_s = 50.0;
-  patches[4].inharmonicity = 1e-3;
-  patches[5].tuning_hz = 466.0;
-  patches[6].loss = 1.0;
+  patches[3].string.damping_per_s = 50.0;
+  patches[4].string.inharmonicity = 1e-3;
+  patches[5].string.tuning_hz = 466.0;
+  patches[6].string.loss = 1.0;
   patches[7].pickup = 0.9;
   patches[7].spread = 0.5;
-  patches[8].tracking = 3.0;
+  patches[8].string.tracking = 3.0;
   for (size_t p = 0; p < PATCHES; ++p) {
     for (uint32_t at = 4800; at < 5020; at += 31) {
       worst = fmax(worst, step_of_change(harp, &patches[p], at, GLIDE));
@@ -144,24 +144,24 @@ static double pitch_hz(Harp* harp, uint32_t key) {
 static void bent_note_is_in_tune(void** state) {
   (void)state;
   static const double bends[] = {2.0, 7.0, -2.0, -12.0, 0.5, 0.0};
-  Patch patch = plain;
+  HarpPatch patch = plain;
   double worst = 0.0;
   Harp* const harp = harp_new(48000.0);
   assert_non_null(harp);
-  patch.max_masses = CHAIN_MAX_MASSES;
+  patch.string.max_masses = CHAIN_MAX_MASSES;
   for (uint32_t key = 45; key <= 93; key += 12) {
     harp_reset(harp);
-    patch.tuning_hz = 440.0;
+    patch.string.tuning_hz = 440.0;
     harp_set_patch(harp, &patch, 0);
     harp_note_on(harp, 0, key, 100);
     const uint32_t n_masses = harp_report(harp).n_masses;
     for (size_t b = 0; b < 6; ++b) {
-      patch.tuning_hz = b % 2 ? 446.0 : 440.0;
+      patch.string.tuning_hz = b % 2 ? 446.0 : 440.0;
       harp_set_patch(harp, &patch, 100);
       harp_bend(harp, 0, bends[b]);
       float out[2][500];
       harp_run(harp, 500, out[0], out[1]);
-      const double wanted_hz = patch.tuning_hz * exp2((key - 69.0 + bends[b]) / 12.0);
+      const double wanted_hz = patch.string.tuning_hz * exp2((key - 69.0 + bends[b]) / 12.0);
       worst = fmax(worst, fabs(1200.0 * log2(pitch_hz(harp, key) / wanted_hz)));
       /* Two semitones it can give way; seven take masses, which only a pluck brings back. */
       assert_true(b == 0 ? harp_report(harp).n_masses == n_masses
@@ -181,9 +181,9 @@ static void damper_leaves_the_loss_between_masses(void** state) {
   Harp* const harp = harp_new(48000.0);
   assert_non_null(harp);
   for (int step = 1; step <= 4; ++step) {
-    Patch patch = plain;
-    patch.loss = 0.25 * step;
-    patch.max_masses = 40;
+    HarpPatch patch = plain;
+    patch.string.loss = 0.25 * step;
+    patch.string.max_masses = 40;
     harp_reset(harp);
     harp_set_patch(harp, &patch, 0);
     harp_note_on(harp, 0, 57, 100);

@@ -22,7 +22,7 @@ static void a_bend_does_not_take_back_what_is_being_given(void** state) {
   (void)state;
   double worst = 0.0;
   for (uint32_t way = STRIKE; way <= BOW; way += BOW - STRIKE) {
-    const Patch patch = harps_patch(way);
+    const HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(RATE, &patch);
     for (uint32_t key = 33; key <= 81; key += 12) {
       double level = 0.0;
@@ -62,10 +62,10 @@ static void what_touches_a_string_sees_it_as_it_is(void** state) {
   (void)state;
   uint32_t n_seen = 0;
   for (uint32_t way = STRIKE; way <= BOW; way += BOW - STRIKE) {
-    Patch patch = harps_patch(way);
-    Patch pluck = harps_patch(0);
-    patch.max_masses = CHAIN_MAX_MASSES;
-    pluck.max_masses = CHAIN_MAX_MASSES;
+    HarpPatch patch = harps_patch(way);
+    HarpPatch pluck = harps_patch(0);
+    patch.string.max_masses = CHAIN_MAX_MASSES;
+    pluck.string.max_masses = CHAIN_MAX_MASSES;
     Harp* const harp = harps_new(RATE, &patch);
     for (uint32_t key = 45; key <= 81; key += 4) {
       for (size_t at = 20; at <= 5120; at *= 2) {
@@ -88,7 +88,7 @@ static void what_touches_a_string_sees_it_as_it_is(void** state) {
 }
 
 /* Steps, of the level. */
-static double brightness(Harp* harp, const Patch* patch) {
+static double brightness(Harp* harp, const HarpPatch* patch) {
   double steps = 0.0;
   harps_restart(harp, patch);
   harp_note_on(harp, 0, 45, 100);
@@ -102,7 +102,7 @@ static double brightness(Harp* harp, const Patch* patch) {
 static void place_and_hardness_are_the_patchs(void** state) {
   (void)state;
   for (uint32_t way = STRIKE; way <= BOW; way += BOW - STRIKE) {
-    Patch patch = harps_patch(way);
+    HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(RATE, &patch);
     /* A bow is drawn where there is one slip a period, and sounds so all over. */
     const double other_place = way == BOW ? 0.06 : 0.45;

@@ -47,8 +47,8 @@ static void what_is_left_is_the_strings_own(void** state) {
   double cents = 0.0;
   double decay = 0.0;
   for (uint32_t way = STRIKE; way < HARPS_N_WAYS; ++way) {
-    Patch patch = harps_patch(way);
-    patch.damping_per_s = 1.0;
+    HarpPatch patch = harps_patch(way);
+    patch.string.damping_per_s = 1.0;
     patch.pickup = 0.45;
     Harp* const harp = harps_new(RATE, &patch);
     for (uint32_t key = 33; key <= 96; key += 9) {
@@ -71,7 +71,7 @@ static void a_bow_sustains_while_its_key_is_down(void** state) {
   (void)state;
   double worst = 0.0;
   for (uint32_t way = BOW; way < HARPS_N_WAYS; ++way) {
-    const Patch patch = harps_patch(way);
+    const HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(RATE, &patch);
     for (uint32_t key = 33; key <= 96; key += 3) {
       harps_restart(harp, &patch);
@@ -90,7 +90,7 @@ static void a_bow_sustains_while_its_key_is_down(void** state) {
 static void a_bow_is_lifted_when_its_key_goes_up(void** state) {
   (void)state;
   double worst = 0.0;
-  const Patch patch = harps_patch(BOW);
+  const HarpPatch patch = harps_patch(BOW);
   Harp* const harp = harps_new(RATE, &patch);
   for (uint32_t key = 33; key <= 96; key += 7) {
     const double tau_s = harps_tone(&patch, key, 0.0).tau_s;
@@ -113,7 +113,7 @@ static void a_bow_is_lifted_when_its_key_goes_up(void** state) {
 
 static void a_struck_string_is_damped_when_its_key_goes_up(void** state) {
   (void)state;
-  const Patch patch = harps_patch(STRIKE);
+  const HarpPatch patch = harps_patch(STRIKE);
   Harp* const harp = harps_new(RATE, &patch);
   for (uint32_t key = 33; key <= 96; key += 7) {
     harps_restart(harp, &patch);
@@ -138,7 +138,7 @@ static void a_bow_neither_comes_nor_goes_with_a_click(void** state) {
     double start = 0.0;
     double lift = 0.0;
     double again = 0.0;
-    const Patch patch = harps_patch(way);
+    const HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(RATE, &patch);
     for (uint32_t key = 33; key <= 96; key += 3) {
       harps_restart(harp, &patch);
@@ -166,7 +166,7 @@ static void all_sound_off_and_reset_silence_all_ways(void** state) {
   (void)state;
   double worst_s = 0.0;
   for (uint32_t way = 0; way < HARPS_N_WAYS; ++way) {
-    const Patch patch = harps_patch(way);
+    const HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(RATE, &patch);
     for (uint32_t key = 33; key <= 96; key += 9) {
       for (int in_contact = 0; in_contact < 2; ++in_contact) {

@@ -40,7 +40,7 @@ typedef struct {
   double rate_hz;
   uint32_t key;
   Setting setting;
-  Patch patch;
+  HarpPatch patch;
   HarpString string;
 } Case;
 

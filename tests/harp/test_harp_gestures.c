@@ -22,42 +22,44 @@ typedef struct {
   float right[FRAMES];
 } Sound;
 
-static const Patch plain = {
+static const HarpPatch plain = {
     .level = 1.0,
-    .damping_per_s = 1.0,
-    .loss = 0.01,
+    .string.damping_per_s = 1.0,
+    .string.loss = 0.01,
     .pickup = 0.12,
     .spread = 0.1,
     .pluck = 0.2,
     .hardness = 0.5,
-    .release_s = 0.05,
-    .tuning_hz = 440.0,
-    .max_masses = 300,
+    .string.release_s = 0.05,
+    .string.tuning_hz = 440.0,
+    .string.max_masses = 300,
 };
 
-static Patch random_patch(Random* random) {
+static HarpPatch random_patch(Random* random) {
   const bool is_mono = random_below(random, 3) == 0;
-  return (Patch){
+  return (HarpPatch){
       .level = random_between(random, 0.0, 2.0),
-      .damping_per_s = random_log_between(random, 0.02, 200.0),
-      .tracking = random_between(random, -1.0, 2.0),
-      .loss = random_below(random, 4) ? random_between(random, 0.0, 1.0) : random_below(random, 2),
-      .inharmonicity = random_below(random, 3) ? random_log_between(random, 1e-6, 0.1) : 0.0,
-      .partials = (Partials)random_below(random, 3),
+      .string.damping_per_s = random_log_between(random, 0.02, 200.0),
+      .string.tracking = random_between(random, -1.0, 2.0),
+      .string.loss =
+          random_below(random, 4) ? random_between(random, 0.0, 1.0) : random_below(random, 2),
+      .string.inharmonicity = random_below(random, 3) ? random_log_between(random, 1e-6, 0.1) : 0.0,
+      .string.partials = (Partials)random_below(random, 3),
       .pickup = random_between(random, 0.0, 1.0),
       .spread = is_mono ? 0.0 : random_between(random, 0.0, 0.5),
       .pluck = random_between(random, 0.0, 1.0),
       .hardness = random_between(random, 0.0, 1.0),
-      .release_s = random_log_between(random, 1e-3, 10.0),
-      .tuning_hz = random_between(random, 400.0, 480.0),
-      .max_masses = 1 + random_below(random, random_below(random, 2) ? 20 : CHAIN_MAX_MASSES),
+      .string.release_s = random_log_between(random, 1e-3, 10.0),
+      .string.tuning_hz = random_between(random, 400.0, 480.0),
+      .string.max_masses =
+          1 + random_below(random, random_below(random, 2) ? 20 : CHAIN_MAX_MASSES),
   };
 }
 
 /* Do one thing that a player or a host can do; true if it was a pluck. */
 static bool gesture(Harp* harp, Random* random) {
   const uint32_t key = 30 + random_below(random, 90);
-  const Patch patch = random_patch(random);
+  const HarpPatch patch = random_patch(random);
   const uint32_t n_glide = random_below(random, 4) ? 1 + random_below(random, 3000) : 0;
   const uint32_t choice = random_below(random, 20);
   const double bend = random_below(random, 4) ? random_between(random, -2.0, 2.0)
@@ -104,7 +106,7 @@ static bool gesture(Harp* harp, Random* random) {
 static void play(Sound* sound, Harp* harp, uint64_t seed, uint32_t cut) {
   Random random = {.state = seed};
   Random cuts = {.state = cut};
-  const Patch patch = random_patch(&random);
+  const HarpPatch patch = random_patch(&random);
   harp_reset(harp);
   harp_set_patch(harp, &patch, 0);
   for (uint32_t done = 0; done < FRAMES;) {
@@ -177,7 +179,7 @@ static void no_patch_and_no_gesture_explodes(void** state) {
     Harp* const harp = harp_new(rates_hz[r]);
     assert_non_null(harp);
     for (int trial = 0; trial < PATCHES / 4; ++trial) {
-      const Patch patch = random_patch(&random);
+      const HarpPatch patch = random_patch(&random);
       int n_plucks = 0;
       harp_reset(harp);
       harp_set_patch(harp, &patch, 0);
@@ -202,8 +204,8 @@ static void masses_are_capped_by_the_patch(void** state) {
   Harp* const harp = harp_new(48000.0);
   assert_non_null(harp);
   for (uint32_t most = 1; most <= 256; most *= 2) {
-    Patch patch = plain;
-    patch.max_masses = most;
+    HarpPatch patch = plain;
+    patch.string.max_masses = most;
     harp_reset(harp);
     harp_set_patch(harp, &patch, 0);
     for (uint32_t key = 20; key < 40; ++key) {

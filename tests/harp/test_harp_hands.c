@@ -174,7 +174,7 @@ static void a_reset_harp_knows_no_hand(void** state) {
   harp_pedal(harp, 0, 1.0);
   harp_swell(harp, 0.1);
   harp_sostenuto(harp, 5, true);
-  const Patch plain = hands_patch();
+  const HarpPatch plain = hands_patch();
   harps_restart(harp, &plain);
   Harp* const fresh = hands_harp();
   static float other[RATE];

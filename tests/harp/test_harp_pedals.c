@@ -36,8 +36,8 @@ static void a_pedal_in_part_damps_in_part(void** state) {
 /* Nor does one that would not damp it make it ring for longer. */
 static void a_damper_in_part_never_lengthens(void** state) {
   (void)state;
-  Patch slow = hands_patch();
-  slow.release_s = 10.0;
+  HarpPatch slow = hands_patch();
+  slow.string.release_s = 10.0;
   Harp* const harp = harps_new(RATE, &slow);
   harp_note_on(harp, 0, KEY, 100);
   harp_note_off(harp, 0, KEY);
@@ -110,7 +110,7 @@ static void pedals_hold_together(void** state) {
 }
 
 static double loudness(Harp* harp, double softness) {
-  const Patch plain = hands_patch();
+  const HarpPatch plain = hands_patch();
   harps_restart(harp, &plain);
   harp_soften(harp, 0, softness);
   harp_note_on(harp, 0, KEY, 100);

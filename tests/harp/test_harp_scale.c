@@ -15,18 +15,18 @@
 
 enum { RATE = 48000, FRAMES = 9600 };
 
-static const Patch plain = {
+static const HarpPatch plain = {
     .level = 1.0,
-    .damping_per_s = 1.0,
-    .tracking = 0.5,
-    .loss = 0.01,
+    .string.damping_per_s = 1.0,
+    .string.tracking = 0.5,
+    .string.loss = 0.01,
     .pickup = 0.12,
     .spread = 0.1,
     .pluck = 0.2,
     .hardness = 0.5,
-    .release_s = 0.05,
-    .tuning_hz = 440.0,
-    .max_masses = CHAIN_MAX_MASSES,
+    .string.release_s = 0.05,
+    .string.tuning_hz = 440.0,
+    .string.max_masses = CHAIN_MAX_MASSES,
 };
 
 typedef struct {
@@ -82,20 +82,21 @@ static void every_key_has_the_pitch_of_the_scale(void** state) {
   Harp* const harp = new_harp();
   for (size_t s = 0; s < sizeof(steps) / sizeof(steps[0]); ++s) {
     for (size_t b = 0; b < 3; ++b) {
-      Patch patch = plain;
-      patch.tuning_hz = b == 1 ? 415.0 : 440.0;
+      HarpPatch patch = plain;
+      patch.string.tuning_hz = b == 1 ? 415.0 : 440.0;
       harp_reset(harp);
       harp_set_patch(harp, &patch, 0);
       set_steps(harp, steps[s]);
       harp_bend(harp, 0, bends[b]);
       for (uint32_t key = 0; key < HARP_KEYS; ++key) {
         const double octaves = ((double)key - 69.0) / 12.0;
-        const double hz = patch.tuning_hz * exp2(steps[s] * octaves + bends[b] / 12.0);
+        const double hz = patch.string.tuning_hz * exp2(steps[s] * octaves + bends[b] / 12.0);
         harp_note_on(harp, 0, key, 100);
         assert_true(hz >= 0.49 * RATE || harp->strings[key].voice.is_awake);
         assert_true(hz < 0.5 * RATE || !harp->strings[key].voice.is_awake);
         if (harp->strings[key].voice.is_awake) {
-          const double tau_s = 1.0 / (plain.damping_per_s * exp2(plain.tracking * octaves));
+          const double tau_s =
+              1.0 / (plain.string.damping_per_s * exp2(plain.string.tracking * octaves));
           worst = fmax(worst, cents_off(harp, key, hz));
           worst_decay = fmax(worst_decay, fabs(tone_of(harp, key).tau_s / tau_s - 1.0));
         }
@@ -136,8 +137,8 @@ static void equal_temperament_is_where_it_begins(void** state) {
 static void a_low_pitch_has_its_masses_on_every_key(void** state) {
   (void)state;
   Harp* const harp = new_harp();
-  Patch patch = plain;
-  patch.tracking = 0.0;
+  HarpPatch patch = plain;
+  patch.string.tracking = 0.0;
   harp_set_patch(harp, &patch, 0);
   for (int pitch = 0; pitch < 128; pitch += 9) {
     harp_reset(harp);

@@ -22,9 +22,9 @@ enum { RATE = 48000, FRAMES = 24000, SWITCH = 6000, GLIDE = 960 };
 
 static float sounds[3][2][FRAMES];
 
-static Patch plain(PickupType sense) {
-  Patch patch = harps_patch(sense);
-  patch.damping_per_s = 1.0;
+static HarpPatch plain(PickupType sense) {
+  HarpPatch patch = harps_patch(sense);
+  patch.string.damping_per_s = 1.0;
   return patch;
 }
 
@@ -34,14 +34,14 @@ static double velocity_gain(uint32_t key) {
 }
 
 /* What is heard says how hard a string is played: so all are played as one of them is. */
-static void pluck_alike(Harp* harp, const Patch* patch, uint32_t key) {
-  const Patch displacement = plain(PICKUP_DISPLACEMENT);
+static void pluck_alike(Harp* harp, const HarpPatch* patch, uint32_t key) {
+  const HarpPatch displacement = plain(PICKUP_DISPLACEMENT);
   harp_set_patch(harp, &displacement, 0);
   harp_note_on(harp, 0, key, 100);
   harp_set_patch(harp, patch, 0);
 }
 
-static void play(Harp* harp, const Patch* patch, uint32_t key, float sound[2][FRAMES]) {
+static void play(Harp* harp, const HarpPatch* patch, uint32_t key, float sound[2][FRAMES]) {
   harps_restart(harp, patch);
   pluck_alike(harp, patch, key);
   harps_run(harp, FRAMES, sound[0], sound[1]);
@@ -50,8 +50,8 @@ static void play(Harp* harp, const Patch* patch, uint32_t key, float sound[2][FR
 /* From the one sense to the other, `n_glide` frames from frame SWITCH on. */
 static void
 play_switch(Harp* harp, PickupType from, PickupType to, uint32_t n_glide, float sound[2][FRAMES]) {
-  const Patch before = plain(from);
-  const Patch after = plain(to);
+  const HarpPatch before = plain(from);
+  const HarpPatch after = plain(to);
   harps_restart(harp, &before);
   pluck_alike(harp, &before, 45);
   pluck_alike(harp, &before, 57);
@@ -63,10 +63,10 @@ play_switch(Harp* harp, PickupType from, PickupType to, uint32_t n_glide, float 
 static void velocity_is_what_displacement_changes_by(void** state) {
   (void)state;
   double worst = 0.0;
-  const Patch displacement = plain(PICKUP_DISPLACEMENT);
+  const HarpPatch displacement = plain(PICKUP_DISPLACEMENT);
   Harp* const harp = harps_new(RATE, &displacement);
   for (uint32_t key = 33; key <= 96; key += 7) {
-    const Patch velocity = plain(PICKUP_VELOCITY);
+    const HarpPatch velocity = plain(PICKUP_VELOCITY);
     const double gain = velocity_gain(key);
     play(harp, &displacement, key, sounds[0]);
     play(harp, &velocity, key, sounds[1]);
@@ -94,7 +94,7 @@ static double end_of(const Harp* harp, uint32_t key, bool is_far) {
 static void force_is_where_the_masses_at_the_ends_are(void** state) {
   (void)state;
   double worst = 0.0;
-  Patch patch = plain(PICKUP_FORCE);
+  HarpPatch patch = plain(PICKUP_FORCE);
   Harp* const harp = harps_new(RATE, &patch);
   for (uint32_t key = 33; key <= 96; key += 7) {
     for (int k = 0; k < 4; ++k) {
@@ -121,7 +121,7 @@ static void force_is_where_the_masses_at_the_ends_are(void** state) {
 static void a_sense_switched_to_is_as_if_it_had_always_been(void** state) {
   (void)state;
   double worst = 0.0;
-  const Patch patch = plain(PICKUP_DISPLACEMENT);
+  const HarpPatch patch = plain(PICKUP_DISPLACEMENT);
   Harp* const harp = harps_new(RATE, &patch);
   for (PickupType from = 0; from <= PICKUP_FORCE; ++from) {
     for (PickupType to = 0; to <= PICKUP_FORCE; ++to) {
@@ -147,7 +147,7 @@ static double largest_step(float sound[2][FRAMES], size_t from, size_t to) {
 
 static void switching_senses_makes_no_click(void** state) {
   (void)state;
-  const Patch patch = plain(PICKUP_DISPLACEMENT);
+  const HarpPatch patch = plain(PICKUP_DISPLACEMENT);
   Harp* const harp = harps_new(RATE, &patch);
   double worst = 0.0;
   for (PickupType from = 0; from <= PICKUP_FORCE; ++from) {
@@ -172,8 +172,8 @@ static void a_new_mesh_makes_no_click(void** state) {
   (void)state;
   for (PickupType sense = 0; sense <= PICKUP_FORCE; ++sense) {
     double worst = 0.0;
-    Patch patch = plain(sense);
-    patch.max_masses = CHAIN_MAX_MASSES;
+    HarpPatch patch = plain(sense);
+    patch.string.max_masses = CHAIN_MAX_MASSES;
     Harp* const harp = harps_new(RATE, &patch);
     for (uint32_t key = 45; key <= 93; key += 3) {
       harps_restart(harp, &patch);
@@ -194,7 +194,7 @@ static void a_new_mesh_makes_no_click(void** state) {
 
 static void places_and_spread_hold_for_velocities(void** state) {
   (void)state;
-  Patch patch = plain(PICKUP_VELOCITY);
+  HarpPatch patch = plain(PICKUP_VELOCITY);
   Harp* const harp = harps_new(RATE, &patch);
   for (int k = 0; k <= 4; ++k) {
     patch.pickup = 0.25 * k;
@@ -208,7 +208,7 @@ static void places_and_spread_hold_for_velocities(void** state) {
     play(harp, &patch, 57, sounds[0]);
     for (int s = 0; s < 2; ++s) {
       const double place = fabs(0.25 * k + (s ? 0.1 : -0.1));
-      Patch one = patch;
+      HarpPatch one = patch;
       one.pickup = place > 1.0 ? 2.0 - place : place;
       one.spread = 0.0;
       play(harp, &one, 57, sounds[1]);

@@ -82,7 +82,7 @@ static void turn(Sweep* sweep, int what, double way, uint32_t block) {
       setting.value[name] = settings_on_way(name, name % 2 ? 1.0 - way : way);
     }
   }
-  const Patch patch = settings_patch(&setting);
+  const HarpPatch patch = settings_patch(&setting);
   const uint32_t shortest = (uint32_t)(0.005 * sweep->rate_hz) + 1;
   if (what != SWEEP_BEND) {
     harp_set_patch(sweep->harp, &patch, block > shortest ? block : shortest);

@@ -24,7 +24,7 @@ static void gesture(Harp* harp, Random* random) {
   const uint32_t key = 40 + random_below(random, 8);
   const double share =
       random_below(random, 4) ? random_between(random, 0.0, 1.0) : (double)random_below(random, 2);
-  Patch patch = harps_touched_patch(random_below(random, HARPS_N_WAYS));
+  HarpPatch patch = harps_touched_patch(random_below(random, HARPS_N_WAYS));
   switch (random_below(random, 16)) {
   case 0:
     harp_bend(harp, hand, 192.0 * (share - 0.5));
@@ -66,7 +66,7 @@ static void gesture(Harp* harp, Random* random) {
     harp_note_off(harp, hand, key);
     break;
   case 13:
-    patch.damping_per_s = random_log_between(random, 0.5, 100.0);
+    patch.string.damping_per_s = random_log_between(random, 0.5, 100.0);
     harp_set_patch(harp, &patch, random_below(random, 3000));
     break;
   case 14:
@@ -86,7 +86,7 @@ static void gesture(Harp* harp, Random* random) {
 static void play_storm(Harp* harp, uint64_t seed, uint32_t cut, uint32_t n_frames, float* out) {
   Random random = {.state = seed};
   Random cuts = {.state = cut};
-  const Patch patch = harps_touched_patch(0);
+  const HarpPatch patch = harps_touched_patch(0);
   harps_restart(harp, &patch);
   for (uint32_t done = 0; done < n_frames;) {
     gesture(harp, &random);
@@ -108,7 +108,7 @@ static void touches_are_the_same_however_calls_are_cut(void** state) {
   enum { ROUNDS = 60 };
   (void)state;
   Random random = random_start();
-  const Patch patch = harps_touched_patch(0);
+  const HarpPatch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   for (int round = 0; round < ROUNDS; ++round) {
     const uint64_t seed = random_below(&random, 1U << 31);
@@ -128,7 +128,7 @@ static void nothing_sticks_after_a_storm_of_hands(void** state) {
   Random random = random_start();
   double peak = 0.0;
   for (size_t r = 0; r < 3; ++r) {
-    const Patch patch = harps_touched_patch(0);
+    const HarpPatch patch = harps_touched_patch(0);
     Harp* const harp = harps_new(rates_hz[r], &patch);
     for (int round = 0; round < 4; ++round) {
       play_storm(harp, random_below(&random, 1U << 31), MOST, 2 * RATE, left);

@@ -20,7 +20,7 @@ static float other[MOST];
 static void a_hand_bends_what_it_plays(void** state) {
   static const double bends[] = {0.01, 2.0, -12.0, 24.0, -48.0, 48.0, 0.0};
   (void)state;
-  const Patch patch = harps_touched_patch(0);
+  const HarpPatch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   const HarpString* const bent = &harp->strings[KEY];
   const HarpString* const still = &harp->strings[KEY + 1];
@@ -44,7 +44,7 @@ static void a_hand_bends_what_it_plays(void** state) {
 static void far_bends_are_exact_and_do_not_click(void** state) {
   static const double bends[] = {-36.0, 48.0, -48.0, 12.0, 0.0};
   (void)state;
-  const Patch patch = harps_touched_patch(0);
+  const HarpPatch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 0, KEY, 127);
   harps_run(harp, RATE / 4, left, NULL);
@@ -78,7 +78,7 @@ static double bowed_db(Harp* harp) {
 
 static void breath_and_pressure_are_the_bows_strength(void** state) {
   (void)state;
-  const Patch patch = harps_touched_patch(BOWED);
+  const HarpPatch patch = harps_touched_patch(BOWED);
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 0, KEY, 80);
   const double full = bowed_db(harp);
@@ -113,7 +113,7 @@ static double loss_of(const HarpString* string) {
 
 static void brightness_moves_what_is_between_the_masses(void** state) {
   (void)state;
-  const Patch patch = harps_touched_patch(0);
+  const HarpPatch patch = harps_touched_patch(0);
   const double tau_s = harps_tone(&patch, KEY, 0.0).tau_s;
   Harp* const harp = harps_new(RATE, &patch);
   double last = 1.0;
@@ -125,7 +125,7 @@ static void brightness_moves_what_is_between_the_masses(void** state) {
     assert_within("τ", fabs(harps_string_tone(&harp->strings[KEY]).tau_s / tau_s - 1.0), 1e-9);
     assert_true(loss < 0.8 * last);
     if (step == 0) {
-      assert_within("as the patch has it", fabs(loss / patch.loss - 1.0), 1e-9);
+      assert_within("as the patch has it", fabs(loss / patch.string.loss - 1.0), 1e-9);
     }
     last = loss;
   }
@@ -146,7 +146,7 @@ static double sharpness(const float* samples, size_t n) {
 static void a_brighter_hand_plays_brighter_notes(void** state) {
   (void)state;
   for (uint32_t exciter = 0; exciter < 2; ++exciter) {
-    const Patch patch = harps_touched_patch(HARPS_N_SENSES * exciter + PICKUP_VELOCITY);
+    const HarpPatch patch = harps_touched_patch(HARPS_N_SENSES * exciter + PICKUP_VELOCITY);
     Harp* const harp = harps_new(RATE, &patch);
     double last = 0.0;
     for (int step = -1; step <= 1; ++step) {
@@ -166,7 +166,7 @@ static void a_brighter_hand_plays_brighter_notes(void** state) {
 /* Where it would click most. */
 static void a_swell_is_a_gain_and_no_step(void** state) {
   (void)state;
-  const Patch patch = harps_touched_patch(0);
+  const HarpPatch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   uint32_t at = RATE / 2;
   harp_note_on(harp, 0, KEY, 100);

@@ -48,8 +48,8 @@ static double mean_above_hz(const float* samples, size_t n, double f_hz) {
 /* Over nine whole swings. */
 static void a_vibrato_is_exact_in_its_mean(void** state) {
   (void)state;
-  Patch patch = harps_touched_patch(0);
-  patch.damping_per_s = 0.05;
+  HarpPatch patch = harps_touched_patch(0);
+  patch.string.damping_per_s = 0.05;
   Harp* const harp = harps_new(RATE, &patch);
   const double f0_hz = harps_tone(&patch, KEY, 0.0).f0_hz;
   harp_note_on(harp, 0, KEY, 127);
@@ -93,7 +93,7 @@ static double swing_of(Harp* harp, uint32_t key) {
 
 static void pressure_swings_the_keys_that_it_is_on(void** state) {
   (void)state;
-  const Patch patch = harps_touched_patch(0);
+  const HarpPatch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 1, KEY, 100);
   harp_note_on(harp, 1, KEY + 1, 100);
@@ -124,7 +124,7 @@ static void pressure_swings_the_keys_that_it_is_on(void** state) {
 /* A note that is played under a vibrato has it, and so has one that follows another. */
 static void a_vibrato_waits_for_notes(void** state) {
   (void)state;
-  const Patch patch = harps_touched_patch(0);
+  const HarpPatch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   harp_vibrato(harp, 0, 0.3);
   for (int again = 0; again < 3; ++again) {
@@ -137,8 +137,8 @@ static void a_vibrato_waits_for_notes(void** state) {
 /* Nor does it begin in the middle of the last one's. */
 static void a_vibrato_begins_with_its_note(void** state) {
   (void)state;
-  Patch patch = harps_touched_patch(0);
-  patch.damping_per_s = 50.0;
+  HarpPatch patch = harps_touched_patch(0);
+  patch.string.damping_per_s = 50.0;
   Harp* const harp = harps_new(RATE, &patch);
   harp_vibrato(harp, 0, 0.3);
   for (int again = 0; again < 3; ++again) {
@@ -156,12 +156,12 @@ static void a_vibrato_begins_with_its_note(void** state) {
 /* A host that automates something with large blocks. */
 static void slow_changes_do_not_stretch_a_vibrato(void** state) {
   (void)state;
-  Patch patch = harps_touched_patch(0);
+  HarpPatch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
   harp_vibrato(harp, 0, 0.3);
   harp_note_on(harp, 0, KEY, 100);
   for (int block = 0; block < 4; ++block) {
-    patch.damping_per_s *= 1.01;
+    patch.string.damping_per_s *= 1.01;
     harp_set_patch(harp, &patch, RATE / 2);
     assert_within("off 30 cents", fabs(swing_of(harp, KEY) - 30.0), 1.0);
   }

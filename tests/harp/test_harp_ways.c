@@ -20,23 +20,24 @@ static float right[MOST];
 static float other[2][MOST];
 
 /* Strings that are quick to fall asleep, so that this happens often and anywhere. */
-static Patch quick_patch(Random* random) {
-  Patch patch = harps_patch(random_below(random, HARPS_N_WAYS));
+static HarpPatch quick_patch(Random* random) {
+  HarpPatch patch = harps_patch(random_below(random, HARPS_N_WAYS));
   patch.level = random_log_between(random, 1e-3, 1.0);
-  patch.damping_per_s = random_log_between(random, 1.0, 200.0);
-  patch.release_s = random_log_between(random, 0.005, 0.1);
-  patch.inharmonicity = random_below(random, 3) ? 0.0 : random_log_between(random, 1e-6, 1e-2);
+  patch.string.damping_per_s = random_log_between(random, 1.0, 200.0);
+  patch.string.release_s = random_log_between(random, 0.005, 0.1);
+  patch.string.inharmonicity =
+      random_below(random, 3) ? 0.0 : random_log_between(random, 1e-6, 1e-2);
   patch.hardness = random_between(random, 0.0, 1.0);
   patch.pluck = random_between(random, 0.0, 1.0);
   patch.pickup = random_between(random, 0.0, 1.0);
   patch.spread = random_below(random, 2) ? 0.0 : 0.2;
-  patch.max_masses = 1 + random_below(random, 100);
+  patch.string.max_masses = 1 + random_below(random, 100);
   return patch;
 }
 
 static void gesture(Harp* harp, Random* random) {
   const uint32_t key = 40 + random_below(random, 50);
-  const Patch patch = quick_patch(random);
+  const HarpPatch patch = quick_patch(random);
   const uint32_t n_glide = random_below(random, 4) ? 1 + random_below(random, 3000) : 0;
   const double bend = random_between(random, -2.0, 2.0);
   const uint32_t choice = random_below(random, 16);
@@ -62,7 +63,7 @@ static void play_cut(Harp* harp, uint32_t way, uint64_t seed, uint32_t cut, floa
   enum { FRAMES = RATE };
   Random random = {.state = seed};
   Random cuts = {.state = cut};
-  Patch patch = harps_patch(way);
+  HarpPatch patch = harps_patch(way);
   patch.level = 1e-3;
   harps_restart(harp, &patch);
   for (uint32_t done = 0; done < FRAMES;) {
@@ -109,8 +110,8 @@ static void play_late(Harp* harp, size_t n_before, float* l, float* r) {
 static void a_keys_sound_does_not_depend_on_when_it_is_played(void** state) {
   (void)state;
   for (uint32_t way = 0; way < HARPS_N_WAYS; ++way) {
-    const Patch patch = harps_patch(way);
-    const Patch bow = harps_patch(LAST_WAY);
+    const HarpPatch patch = harps_patch(way);
+    const HarpPatch bow = harps_patch(LAST_WAY);
     Harp* const harp = harps_new(RATE, &patch);
     play_late(harp, 0, left, right);
     harps_restart(harp, &patch);
@@ -136,7 +137,7 @@ static void nothing_stands_still_in_what_is_heard(void** state) {
   (void)state;
   static const uint32_t chord[] = {36, 48, 52, 55, 60, 67};
   for (uint32_t way = 0; way < HARPS_N_WAYS; ++way) {
-    const Patch patch = harps_patch(way);
+    const HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(RATE, &patch);
     double sums[2] = {0.0};
     for (size_t k = 0; k < sizeof(chord) / sizeof(chord[0]); ++k) {
@@ -158,8 +159,8 @@ static void nothing_stands_still_in_what_is_heard(void** state) {
 static void silence_is_exact_silence(void** state) {
   (void)state;
   for (uint32_t way = 0; way < HARPS_N_WAYS; ++way) {
-    const Patch patch = harps_patch(way);
-    Patch next = harps_patch((way + 1) % HARPS_N_WAYS);
+    const HarpPatch patch = harps_patch(way);
+    HarpPatch next = harps_patch((way + 1) % HARPS_N_WAYS);
     Harp* const harp = harps_new(RATE, &patch);
     harps_run(harp, 1000, left, right);
     harp_set_patch(harp, &next, 500);

@@ -37,18 +37,18 @@ GuitarPatch guitar_patch_of(const Host* host) {
   GuitarPatch patch = {
       .string =
           {
-              .level = pow(10.0, port(host, "level") / 20.0),
               .damping_per_s = port(host, "damping"),
               .tracking = port(host, "tracking"),
               .loss = host_get(host, "loss") == 1e-5f ? 0.0 : port(host, "loss"),
               .inharmonicity = host_get(host, "stiffness") == 1e-6f ? 0.0 : port(host, "stiffness"),
               .partials = (Partials)port(host, "partials"),
-              .pluck = port(host, "pluck"),
-              .hardness = port(host, "hardness"),
               .release_s = port(host, "release"),
               .tuning_hz = port(host, "tuning"),
               .max_masses = (uint32_t)port(host, "masses"),
           },
+      .level = pow(10.0, port(host, "level") / 20.0),
+      .pluck = port(host, "pluck"),
+      .hardness = port(host, "hardness"),
       .pickups = {{port(host, "pickup"), 1.0 - port(host, "blend")},
                   {port(host, "pickup2"), port(host, "blend")}},
       .n_strings = 6,

@@ -1,6 +1,7 @@
 #include "tests/support/guitars.h"
 
 #include "core/guitar/guitar_event.h"
+#include "plugin/guitar_ports.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -12,21 +13,12 @@
 enum { PIECE = 4096 };
 
 GuitarPatch guitars_patch(void) {
-  return (GuitarPatch){
-      .string = {.level = 1.0,
-                 .damping_per_s = 0.6,
-                 .tracking = 0.5,
-                 .loss = 0.01,
-                 .partials = PARTIALS_TRUEST,
-                 .pluck = 0.13,
-                 .hardness = 0.5,
-                 .release_s = 0.1,
-                 .tuning_hz = 440.0,
-                 .max_masses = 80},
-      .pickups = {{0.1, 1.0}, {0.25, 0.0}},
-      .open = {64.0, 59.0, 55.0, 50.0, 45.0, 40.0},
-      .n_strings = 6,
-  };
+  GuitarPatch patch = guitar_ports_usual();
+  patch.hardness = 0.5;
+  patch.width = 0.0;
+  patch.pickups[0] = (GuitarPickup){0.1, 1.0};
+  patch.pickups[1] = (GuitarPickup){0.25, 0.0};
+  return patch;
 }
 
 Guitar* guitars_new(double rate_hz, const GuitarPatch* patch) {
@@ -51,7 +43,7 @@ void guitars_run(Guitar* guitar, uint32_t n_frames, float* left) {
 
 Tone guitars_tone(const GuitarPatch* patch, uint32_t string, double fret) {
   const double octaves = (patch->open[string] + patch->capo + fret - 69.0) / 12.0;
-  const Patch* const p = &patch->string;
+  const StringPatch* const p = &patch->string;
   return (Tone){
       .f0_hz = p->tuning_hz * exp2(octaves),
       .tau_s = 1.0 / (p->damping_per_s * exp2(p->tracking * octaves)),
@@ -71,15 +63,15 @@ static double draw_time_s(Random* random) {
 
 static GuitarPatch draw_patch(Random* random) {
   GuitarPatch patch = guitars_patch();
-  Patch* const p = &patch.string;
-  p->level = draw(random, 0.0, 1.0);
+  StringPatch* const p = &patch.string;
+  patch.level = draw(random, 0.0, 1.0);
   p->damping_per_s = random_log_between(random, 0.02, 200.0);
   p->tracking = draw(random, 0.0, 1.0);
   p->loss = draw(random, 0.0, 1.0);
   p->inharmonicity = random_below(random, 2) ? 0.0 : random_log_between(random, 1e-6, 0.1);
   p->partials = (Partials)random_below(random, 3);
-  p->pluck = draw(random, 0.0, 1.0);
-  p->hardness = draw(random, 0.0, 1.0);
+  patch.pluck = draw(random, 0.0, 1.0);
+  patch.hardness = draw(random, 0.0, 1.0);
   p->release_s = random_log_between(random, 0.005, 10.0);
   p->tuning_hz = draw(random, 400.0, 480.0);
   p->max_masses = 1 + random_below(random, GUITAR_MAX_MASSES);

@@ -6,7 +6,7 @@
 
 #include "tests/support/random.h"
 
-/** The six strings in the usual tuning, as guitar_new() makes them; one pickup is read. */
+/** The six strings as the ports have them, one pickup read, in the middle. */
 GuitarPatch guitars_patch(void);
 
 /** A guitar at rest with a patch; the test fails if there is none. */

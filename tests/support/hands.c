@@ -12,15 +12,15 @@
 
 #include <cmocka.h>
 
-Patch hands_patch(void) {
-  Patch plain = harps_patch(0);
-  plain.release_s = HANDS_RELEASE_S;
+HarpPatch hands_patch(void) {
+  HarpPatch plain = harps_patch(0);
+  plain.string.release_s = HANDS_RELEASE_S;
   plain.vibrato_hz = 5.5;
   return plain;
 }
 
 Harp* hands_harp(void) {
-  const Patch plain = hands_patch();
+  const HarpPatch plain = hands_patch();
   return harps_new(HANDS_RATE, &plain);
 }
 
@@ -33,7 +33,7 @@ static Tone tone_of(Harp* harp, const HarpString* string) {
 }
 
 void hands_check_pitch(Harp* harp, const HarpString* string, double bend) {
-  const Patch plain = hands_patch();
+  const HarpPatch plain = hands_patch();
   const Tone asked = harps_tone(&plain, string->key, bend);
   const Tone has = tone_of(harp, string);
   assert_within("cents", fabs(measure_cents(has.f0_hz, asked.f0_hz)), 1e-4);
@@ -44,6 +44,6 @@ void hands_check_decay(Harp* harp, const HarpString* string, double tau_s) {
 }
 
 double hands_open_s(uint32_t key) {
-  const Patch plain = hands_patch();
+  const HarpPatch plain = hands_patch();
   return harps_tone(&plain, key, 0.0).tau_s;
 }

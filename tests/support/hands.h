@@ -12,7 +12,7 @@
 enum { HANDS_RATE = 48000 };
 
 /** The defaults, with that release. */
-Patch hands_patch(void);
+HarpPatch hands_patch(void);
 
 /** A harp with it at HANDS_RATE, for harp_free(). */
 Harp* hands_harp(void);

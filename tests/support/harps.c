@@ -18,22 +18,22 @@ const char* harps_sense(PickupType sense) {
   return names[sense];
 }
 
-Patch harps_patch(uint32_t way) {
+HarpPatch harps_patch(uint32_t way) {
   const Setting setting = settings_default();
-  Patch patch = settings_patch(&setting);
+  HarpPatch patch = settings_patch(&setting);
   patch.exciter = (Exciter)(way / HARPS_N_SENSES);
   patch.pickup_type = (PickupType)(way % HARPS_N_SENSES);
   return patch;
 }
 
-Harp* harps_new(double rate_hz, const Patch* patch) {
+Harp* harps_new(double rate_hz, const HarpPatch* patch) {
   Harp* const harp = harp_new(rate_hz);
   assert_non_null(harp);
   harp_set_patch(harp, patch, 0);
   return harp;
 }
 
-void harps_restart(Harp* harp, const Patch* patch) {
+void harps_restart(Harp* harp, const HarpPatch* patch) {
   harp_reset(harp);
   harp_set_patch(harp, patch, 0);
 }
@@ -56,16 +56,16 @@ double harps_largest_step(const float* samples, size_t n) {
   return largest;
 }
 
-Tone harps_tone(const Patch* patch, uint32_t key, double bend_semitones) {
+Tone harps_tone(const HarpPatch* patch, uint32_t key, double bend_semitones) {
   const double octaves = ((double)key - 69.0) / 12.0;
   return (Tone){
-      .f0_hz = patch->tuning_hz * exp2(octaves + bend_semitones / 12.0),
-      .tau_s = 1.0 / (patch->damping_per_s * exp2(patch->tracking * octaves)),
+      .f0_hz = patch->string.tuning_hz * exp2(octaves + bend_semitones / 12.0),
+      .tau_s = 1.0 / (patch->string.damping_per_s * exp2(patch->string.tracking * octaves)),
   };
 }
 
-Patch harps_touched_patch(uint32_t way) {
-  Patch patch = harps_patch(way);
+HarpPatch harps_touched_patch(uint32_t way) {
+  HarpPatch patch = harps_patch(way);
   patch.vibrato_hz = 5.0;
   patch.spread = 0.0;
   return patch;

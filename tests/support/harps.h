@@ -14,16 +14,16 @@ const char* harps_exciter(Exciter exciter);
 const char* harps_sense(PickupType sense);
 
 /** All ports at their defaults, but for what plays and what is heard: the `way`-th of all nine. */
-Patch harps_patch(uint32_t way);
+HarpPatch harps_patch(uint32_t way);
 
 /** The same for what hands do: heard in one place, with a vibrato of 5 Hz. */
-Patch harps_touched_patch(uint32_t way);
+HarpPatch harps_touched_patch(uint32_t way);
 
 /** A harp at rest with a patch; the test fails if there is none. */
-Harp* harps_new(double rate_hz, const Patch* patch);
+Harp* harps_new(double rate_hz, const HarpPatch* patch);
 
 /** Bring it to rest and give it another patch. */
-void harps_restart(Harp* harp, const Patch* patch);
+void harps_restart(Harp* harp, const HarpPatch* patch);
 
 /** Run it, in one call or in many, and keep both sides; NULL: not that one. */
 void harps_run(Harp* harp, size_t n_frames, float* left, float* right);
@@ -32,7 +32,7 @@ void harps_run(Harp* harp, size_t n_frames, float* left, float* right);
 double harps_largest_step(const float* samples, size_t n);
 
 /** Pitch [Hz] and decay [s] of an open string, as the headers say. */
-Tone harps_tone(const Patch* patch, uint32_t key, double bend_semitones);
+Tone harps_tone(const HarpPatch* patch, uint32_t key, double bend_semitones);
 
 /** Those of a string as it is; the test fails unless it is awake and its coefficients stand still.
  */

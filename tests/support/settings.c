@@ -61,24 +61,24 @@ Setting settings_random(Random* random) {
   return setting;
 }
 
-Patch settings_patch(const Setting* setting) {
+HarpPatch settings_patch(const Setting* setting) {
   const double* const v = setting->value;
   const bool is_lossless = v[SETTING_LOSS] <= ranges[STRINGS_PORT_LOSS].minimum;
   const bool is_flexible = v[SETTING_STIFFNESS] <= ranges[STRINGS_PORT_STIFFNESS].minimum;
-  return (Patch){
+  return (HarpPatch){
       .level = 1.0,
-      .damping_per_s = v[SETTING_DAMPING],
-      .tracking = v[SETTING_TRACKING],
-      .loss = is_lossless ? 0.0 : v[SETTING_LOSS],
-      .inharmonicity = is_flexible ? 0.0 : v[SETTING_STIFFNESS],
-      .partials = (Partials)lround(v[SETTING_PARTIALS]),
+      .string.damping_per_s = v[SETTING_DAMPING],
+      .string.tracking = v[SETTING_TRACKING],
+      .string.loss = is_lossless ? 0.0 : v[SETTING_LOSS],
+      .string.inharmonicity = is_flexible ? 0.0 : v[SETTING_STIFFNESS],
+      .string.partials = (Partials)lround(v[SETTING_PARTIALS]),
       .pickup = ranges[STRINGS_PORT_PICKUP].default_value,
       .spread = ranges[STRINGS_PORT_SPREAD].default_value,
       .pluck = v[SETTING_PLUCK],
       .hardness = v[SETTING_HARDNESS],
-      .release_s = v[SETTING_RELEASE],
-      .tuning_hz = v[SETTING_TUNING],
-      .max_masses = (uint32_t)lround(v[SETTING_MASSES]),
+      .string.release_s = v[SETTING_RELEASE],
+      .string.tuning_hz = v[SETTING_TUNING],
+      .string.max_masses = (uint32_t)lround(v[SETTING_MASSES]),
   };
 }
 

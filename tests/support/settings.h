@@ -2,7 +2,7 @@
 #ifndef HOOKE_TESTS_SUPPORT_SETTINGS_H
 #define HOOKE_TESTS_SUPPORT_SETTINGS_H
 
-#include "core/harp/patch.h"
+#include "core/harp/harp_patch.h"
 
 #include "tests/support/random.h"
 
@@ -41,7 +41,7 @@ double settings_on_way(SettingName name, double way);
 Setting settings_random(Random* random);
 
 /** As the manual says what the ports mean. */
-Patch settings_patch(const Setting* setting);
+HarpPatch settings_patch(const Setting* setting);
 
 /** Pitch [Hz] and decay [s] of an open string, as the manual says. */
 Tone settings_tone(const Setting* setting, uint32_t key, double bend_semitones);

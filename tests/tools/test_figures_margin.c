@@ -18,13 +18,13 @@ static const double RATE_HZ = 48000.0;
 
 /* The harp's string, made anew. */
 static double margin_of(Setting setting, uint32_t key, uint32_t n_masses) {
-  const Patch patch = settings_patch(&setting);
+  const HarpPatch patch = settings_patch(&setting);
   const TuningTarget target = {
       .rate_hz = RATE_HZ,
       .tone = settings_tone(&setting, key, 0.0),
-      .loss = patch.loss,
-      .inharmonicity = patch.inharmonicity,
-      .partials = patch.partials,
+      .loss = patch.string.loss,
+      .inharmonicity = patch.string.inharmonicity,
+      .partials = patch.string.partials,
   };
   StringCoefs coefs = {0};
   assert_int_equal(tuning_solve(&target, n_masses, &coefs), STATUS_OK);

@@ -2,6 +2,7 @@
 
 #include "core/harp/harp.h"
 #include "plugin/denormals.h"
+#include "plugin/strings_ports.h"
 #include "tools/bench/bench_clock.h"
 
 #include <math.h>
@@ -26,28 +27,20 @@ enum {
   PLAY_S = 60,
 };
 
-/* The plugin's own, with as many masses as a harp of 88 strings is likely to have. */
-static const Patch usual = {
-    .level = 1.0,
-    .damping_per_s = 0.6,
-    .tracking = 0.5,
-    .loss = 0.01,
-    .partials = PARTIALS_TRUE,
-    .pickup = 0.2,
-    .spread = 0.1,
-    .pluck = 0.13,
-    .hardness = 0.5,
-    .release_s = 0.1,
-    .tuning_hz = 440.0,
-    .max_masses = 256,
-};
+enum { MOST_MASSES = 256 /* As many as a harp of 88 strings is likely to have */ };
+
+static HarpPatch usual_patch(void) {
+  HarpPatch patch = strings_ports_usual();
+  patch.string.max_masses = MOST_MASSES;
+  return patch;
+}
 
 /* A port jumps: what rings gets there as the plugin would have it, in 5 ms. */
 static void jump(Harp* harp) {
-  Patch patch = usual;
-  patch.damping_per_s = 5.0;
-  patch.inharmonicity = 1e-3;
-  patch.loss = 0.3;
+  HarpPatch patch = usual_patch();
+  patch.string.damping_per_s = 5.0;
+  patch.string.inharmonicity = 1e-3;
+  patch.string.loss = 0.3;
   patch.pickup = 0.4;
   harp_set_patch(harp, &patch, RATE_HZ / 200 + 1);
 }
@@ -60,8 +53,8 @@ static void play(Harp* harp, uint32_t first, uint32_t n_keys, uint32_t step) {
 
 /* What happens before the gesture. */
 static void prepare(Harp* harp, BenchGesture gesture, uint32_t max_masses) {
-  Patch patch = usual;
-  patch.max_masses = max_masses;
+  HarpPatch patch = usual_patch();
+  patch.string.max_masses = max_masses;
   harp_reset(harp);
   harp_set_patch(harp, &patch, 0);
   if (gesture == BENCH_TEN_KEYS) {
@@ -183,8 +176,8 @@ static void play_second(Harp* harp, double* least_s) {
 
 /* Its first second, or one more. */
 static void play_first(Harp* harp, double* least_s) {
-  Patch patch = usual;
-  patch.max_masses = 32;
+  HarpPatch patch = usual_patch();
+  patch.string.max_masses = 32;
   harp_reset(harp);
   harp_set_patch(harp, &patch, 0);
   play_second(harp, least_s);
@@ -252,7 +245,7 @@ static void print(BenchGesture gesture, BenchBlocks blocks, bool is_csv) {
 }
 
 bool bench_block(const BenchChoice* choice) {
-  const uint32_t max_masses = choice->n_masses ? choice->n_masses : usual.max_masses;
+  const uint32_t max_masses = choice->n_masses ? choice->n_masses : MOST_MASSES;
   double first_s;
   double last_s;
   if (choice->is_csv) {

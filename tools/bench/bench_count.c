@@ -2,26 +2,13 @@
 
 #include "core/harp/harp.h"
 #include "plugin/denormals.h"
+#include "plugin/strings_ports.h"
 #include "tools/bench/bench_scene.h"
 
 #include <stdio.h>
 #include <string.h>
 
-enum { RATE_HZ = 48000, FRAMES = 64, LOWEST_KEY = 21, MOST_FRAMES = 100000000 };
-
-static const Patch patch = {
-    .level = 1.0,
-    .damping_per_s = 0.6,
-    .tracking = 0.5,
-    .loss = 0.01,
-    .pickup = 0.2,
-    .spread = 0.1,
-    .pluck = 0.13,
-    .hardness = 0.5,
-    .release_s = 0.1,
-    .tuning_hz = 440.0,
-    .max_masses = 16,
-};
+enum { RATE_HZ = 48000, FRAMES = 64, LOWEST_KEY = 21, MASSES = 16, MOST_FRAMES = 100000000 };
 
 __attribute__((noinline)) void bench_count_mark(void) {
   __asm__ volatile("");
@@ -57,6 +44,8 @@ static bool count_harp(bool is_asleep, uint32_t n_keys, uint32_t n_frames) {
   if (!harp) {
     return false;
   }
+  HarpPatch patch = strings_ports_usual();
+  patch.string.max_masses = MASSES;
   harp_set_patch(harp, &patch, 0);
   for (uint32_t i = 0; i < n_keys; ++i) {
     harp_note_on(harp, 0, (LOWEST_KEY + i) % HARP_KEYS, 100);

@@ -11,38 +11,38 @@ static const double RATE_HZ = 48000.0;
 enum { N_ROWS = 49 };
 
 /* What the ports are at, if nobody touches them. */
-static const Patch untouched = {
+static const HarpPatch untouched = {
     .level = 1.0,
-    .damping_per_s = 0.6,
-    .tracking = 0.5,
-    .loss = 0.01,
-    .partials = PARTIALS_TRUEST,
+    .string.damping_per_s = 0.6,
+    .string.tracking = 0.5,
+    .string.loss = 0.01,
+    .string.partials = PARTIALS_TRUEST,
     .pickup = 0.2,
     .spread = 0.1,
     .pluck = 0.13,
     .hardness = 0.5,
-    .release_s = 0.1,
-    .tuning_hz = 440.0,
-    .max_masses = 128,
+    .string.release_s = 0.1,
+    .string.tuning_hz = 440.0,
+    .string.max_masses = 128,
 };
 
 /* A patch with one of its values somewhere on its way. */
-typedef Patch (*PatchAt)(double way);
+typedef HarpPatch (*PatchAt)(double way);
 
-static Patch patch_of_stiffness(double way) {
-  Patch patch = untouched;
-  patch.inharmonicity = 1e-6 * pow(1e5, way);
+static HarpPatch patch_of_stiffness(double way) {
+  HarpPatch patch = untouched;
+  patch.string.inharmonicity = 1e-6 * pow(1e5, way);
   return patch;
 }
 
-static Patch patch_of_loss(double way) {
-  Patch patch = untouched;
-  patch.loss = 1e-5 * pow(1e5, way);
+static HarpPatch patch_of_loss(double way) {
+  HarpPatch patch = untouched;
+  patch.string.loss = 1e-5 * pow(1e5, way);
   return patch;
 }
 
 /* A string as the harp makes it; its memory is laid over whatever was there. */
-static HarpString string_of(const Patch* patch, uint32_t key, void* memory) {
+static HarpString string_of(const HarpPatch* patch, uint32_t key, void* memory) {
   const Pluck pluck = {patch->pluck, patch->hardness, HARP_NOTE_PEAK};
   HarpString string;
   harp_string_init(&string, RATE_HZ, key, memory, CHAIN_MAX_MASSES);
@@ -54,7 +54,7 @@ static void write_map(FILE* data, PatchAt patch_at, double (*value_at)(double), 
   figure_block(data, "map: key, value, margin, masses");
   for (uint32_t row = 0; row < N_ROWS; ++row) {
     const double way = row / (N_ROWS - 1.0);
-    const Patch patch = patch_at(way);
+    const HarpPatch patch = patch_at(way);
     for (uint32_t key = 0; key < HARP_KEYS; ++key) {
       const HarpString string = string_of(&patch, key, memory);
       (void)fprintf(data, "%u %.9g %.4g %u\n", key, value_at(way), string.voice.headroom,
@@ -64,7 +64,7 @@ static void write_map(FILE* data, PatchAt patch_at, double (*value_at)(double), 
 }
 
 /* Key from which on a string has fewer masses than `level`: the higher, the fewer. */
-static uint32_t first_below(const Patch* patch, uint32_t level, void* memory) {
+static uint32_t first_below(const HarpPatch* patch, uint32_t level, void* memory) {
   uint32_t low = 0;
   uint32_t high = HARP_KEYS;
   while (low < high) {
@@ -80,10 +80,10 @@ static uint32_t first_below(const Patch* patch, uint32_t level, void* memory) {
 
 static void write_levels(FILE* data, PatchAt patch_at, double (*value_at)(double), void* memory) {
   figure_block(data, "levels: key where masses fall below 128, 64, ... 2, value");
-  for (uint32_t level = untouched.max_masses; level > 1; level /= 2) {
+  for (uint32_t level = untouched.string.max_masses; level > 1; level /= 2) {
     for (uint32_t row = 0; row < N_ROWS; ++row) {
       const double way = row / (N_ROWS - 1.0);
-      const Patch patch = patch_at(way);
+      const HarpPatch patch = patch_at(way);
       (void)fprintf(data, "%.1f %.6g\n", first_below(&patch, level, memory) - 0.5, value_at(way));
     }
     (void)fputs("\n", data);
@@ -102,11 +102,11 @@ static Status write_maps(FILE* data, PatchAt patch_at, double (*value_at)(double
 }
 
 static double stiffness_at(double way) {
-  return patch_of_stiffness(way).inharmonicity;
+  return patch_of_stiffness(way).string.inharmonicity;
 }
 
 static double loss_at(double way) {
-  return patch_of_loss(way).loss;
+  return patch_of_loss(way).string.loss;
 }
 
 static Status write_stiffness(FILE* data) {
