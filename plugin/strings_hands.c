@@ -228,5 +228,5 @@ void strings_hands_silence(StringsHands* all) {
   for (uint32_t h = 0; h < ZONES_CHANNELS; ++h) {
     all->hands[h].down = (HandKeys){{0, 0}};
   }
-  harp_all_sound_off(all->harp);
+  harp_silence(all->harp);
 }

@@ -18,7 +18,9 @@ static double gain(uint32_t value) {
 }
 
 static void swell(const StringsMidi* midi) {
-  harp_swell(midi->hands.harp, midi->volume * midi->expression);
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    harp_set_gain(midi->hands.harp, channel, midi->volume * midi->expression);
+  }
 }
 
 static void reset_controllers(StringsMidi* midi, uint32_t hand) {

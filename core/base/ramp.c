@@ -14,6 +14,12 @@ void ramp_to(Ramp* ramp, float goal, uint32_t n_frames) {
   ramp->n_left = n_frames;
 }
 
+void ramp_skip(Ramp* ramp, uint32_t n_frames) {
+  for (uint32_t n = 0; n < n_frames && ramp->n_left > 0; ++n) {
+    (void)ramp_next(ramp);
+  }
+}
+
 void ramp_fill(Ramp* ramp, uint32_t n_frames, float* out) {
   uint32_t n = 0;
   for (; n < n_frames && ramp->n_left > 0; ++n) {

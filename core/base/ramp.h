@@ -30,6 +30,9 @@ static inline float ramp_next(Ramp* ramp) {
   return ramp->value;
 }
 
+/** Go `n_frames` on. */
+void ramp_skip(Ramp* ramp, uint32_t n_frames);
+
 /** Its next `n_frames` values. */
 void ramp_fill(Ramp* ramp, uint32_t n_frames, float* out);
 

@@ -31,12 +31,6 @@ static void ramp_gains(GuitarMixer* mixer, uint32_t n_frames) {
   }
 }
 
-static void skip(Ramp* gain, uint32_t n_frames) {
-  for (uint32_t n = 0; n < n_frames && gain->n_left > 0; ++n) {
-    (void)ramp_next(gain);
-  }
-}
-
 static void add(Ramp* gain, const float* from, uint32_t n_frames, float* to) {
   if (gain->n_left > 0) {
     for (uint32_t n = 0; n < n_frames; ++n) {
@@ -66,7 +60,7 @@ static void run_string(GuitarMixer* mixer,
     if (is_heard) {
       add(&pans[side], mixer->own, n_frames, mixer->sides[side]);
     } else {
-      skip(&pans[side], n_frames);
+      ramp_skip(&pans[side], n_frames);
     }
   }
 }

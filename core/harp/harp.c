@@ -1,7 +1,7 @@
 #include "core/harp/harp.h"
 
 #include "core/base/aligned.h"
-#include "core/harp/harp_hands.h"
+#include "core/harp/harp_channels.h"
 #include "core/harp/harp_mixer.h"
 
 #include <assert.h>
@@ -25,7 +25,7 @@ static double clamp(double value, double low, double high) {
 
 /* How far what holds its damper lifts it. */
 static double lift_of(const Harp* harp, const HarpString* string) {
-  return string->is_down || string->is_caught ? 1.0 : harp->hands[string->hand].lift;
+  return string->holders || string->is_caught ? 1.0 : harp->channels[string->channel].lift;
 }
 
 static void retune(Harp* harp, HarpString* string, uint32_t n_glide) {
@@ -39,26 +39,26 @@ static void retune_all(Harp* harp, uint32_t n_glide) {
   }
 }
 
-/* All that has a hand's touch takes it anew. */
-static void feel(Harp* harp, uint32_t hand) {
+/* All that has a channel's touch takes it anew. */
+static void feel(Harp* harp, uint32_t channel) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (harp_hands_follows(string, hand)) {
-      string->touch = harp->hands[hand].touch;
+    if (harp_channels_follows(string, channel)) {
+      string->touch = harp->channels[channel].touch;
       retune(harp, string, harp->n_gesture);
     }
   }
 }
 
-static void set_touch(Harp* harp, uint32_t hand, double* what, double value) {
+static void set_touch(Harp* harp, uint32_t channel, double* what, double value) {
   if (value != *what) {
     *what = value;
-    feel(harp, hand);
+    feel(harp, channel);
   }
 }
 
 static void set_level(Harp* harp, uint32_t n_frames) {
-  ramp_to(&harp->level, (float)(harp->swell * harp->patch.level), n_frames);
+  ramp_to(&harp->level, (float)harp->patch.level, n_frames);
 }
 
 /* A scale may give any key any pitch, so all strings have the same memory. */
@@ -86,8 +86,7 @@ Harp* harp_new(double rate_hz) {
   }
   harp_bridge_init(&harp->bridge, rate_hz);
   lay_out(harp, harp->memory);
-  harp->swell = 1.0;
-  harp_hands_reset(harp->hands);
+  harp_channels_reset(harp->channels);
   return harp;
 }
 
@@ -102,9 +101,8 @@ void harp_reset(Harp* harp) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     harp_string_rest(&harp->strings[i]);
   }
-  harp_hands_reset(harp->hands);
+  harp_channels_reset(harp->channels);
   harp_bridge_init(&harp->bridge, harp->rate_hz);
-  harp->swell = 1.0;
   harp->reading.n_taps = 0;
   harp->is_bowed = false;
   harp->rest[0] = 0.0;
@@ -145,13 +143,13 @@ static bool is_still(const Harp* harp) {
   return harp->rest[0] == 0.0 && harp->rest[1] == 0.0 && harp_report(harp).n_strings == 0;
 }
 
-/* What a hand makes of a velocity. */
-static Pluck pluck_of(const Harp* harp, const HarpHand* hand, uint32_t velocity) {
+/* What a channel makes of a velocity. */
+static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t velocity) {
   const double force = velocity / 127.0;
   const double harder = VELOCITY_HARDNESS * (force - VELOCITY_NEUTRAL) +
-                        BRIGHTNESS_HARDNESS * hand->touch.brightness +
-                        SOFT_HARDNESS * hand->softness;
-  const double softened = 1.0 - (1.0 - SOFT_GAIN) * hand->softness;
+                        BRIGHTNESS_HARDNESS * channel->touch.brightness +
+                        SOFT_HARDNESS * channel->softness;
+  const double softened = 1.0 - (1.0 - SOFT_GAIN) * channel->softness;
   return (Pluck){
       .place = harp->patch.pluck,
       .hardness = clamp(harp->patch.hardness + harder, 0.0, 1.0),
@@ -159,23 +157,27 @@ static Pluck pluck_of(const Harp* harp, const HarpHand* hand, uint32_t velocity)
   };
 }
 
-void harp_note_on(Harp* harp, uint32_t hand, uint32_t key, uint32_t velocity) {
-  assert(hand < HARP_HANDS && key < HARP_KEYS);
-  HarpString* const string = harp_hands_take(harp, hand, key);
-  string->is_caught = string->is_caught && string->hand == hand;
-  string->hand = hand;
-  string->is_down = true;
+void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity) {
+  assert(channel < HARP_CHANNELS && key < HARP_KEYS);
+  HarpString* const string = harp_channels_take(harp, channel, key);
+  string->is_caught = string->is_caught && string->channel == channel;
+  string->channel = channel;
+  string->holders |= 1u << channel;
   string->is_let_go = false;
   string->leaned_on = 0.0;
-  string->touch = harp->hands[hand].touch;
+  string->touch = harp->channels[channel].touch;
   harp->is_bowed = harp->patch.exciter == EXCITER_BOW || (harp->is_bowed && !is_still(harp));
-  harp_string_play(string, &harp->patch, pluck_of(harp, &harp->hands[hand], velocity),
+  harp_string_play(string, &harp->patch, pluck_of(harp, &harp->channels[channel], velocity),
                    harp->n_gesture);
 }
 
-static void raise_key(Harp* harp, HarpString* string) {
+/* The channel lets go of the key; the last one to do so lifts it. */
+static void raise_key(Harp* harp, HarpString* string, uint32_t channel) {
   const bool was_leaned_on = string->leaned_on > 0.0;
-  string->is_down = false;
+  string->holders &= ~(1u << channel);
+  if (string->holders) {
+    return;
+  }
   string->leaned_on = 0.0;
   harp_string_lift(string);
   if (was_leaned_on || string->lift != lift_of(harp, string) || tie_is_on(&string->tie)) {
@@ -183,104 +185,109 @@ static void raise_key(Harp* harp, HarpString* string) {
   }
 }
 
-void harp_note_off(Harp* harp, uint32_t hand, uint32_t key) {
-  assert(hand < HARP_HANDS && key < HARP_KEYS);
-  HarpString* const string = harp_hands_held(harp, hand, key);
+void harp_note_off(Harp* harp, uint32_t channel, uint32_t key) {
+  assert(channel < HARP_CHANNELS && key < HARP_KEYS);
+  HarpString* const string = harp_channels_held(harp, channel, key);
   if (string) {
-    raise_key(harp, string);
+    raise_key(harp, string, channel);
   }
 }
 
-void harp_let_go(Harp* harp, uint32_t hand) {
+void harp_let_go(Harp* harp, uint32_t channel) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    string->is_let_go = string->is_let_go || (string->hand == hand && !string->is_down);
+    string->is_let_go = string->is_let_go || (string->channel == channel && !string->holders);
   }
 }
 
-/* Bring all dampers of a hand to where its pedals let them be. */
-static void move_dampers(Harp* harp, uint32_t hand) {
+/* Bring all dampers of a channel to where its pedals let them be. */
+static void move_dampers(Harp* harp, uint32_t channel) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (string->hand == hand && string->lift != lift_of(harp, string)) {
+    if (string->channel == channel && string->lift != lift_of(harp, string)) {
       retune(harp, string, harp->n_gesture);
     }
   }
 }
 
-void harp_pedal(Harp* harp, uint32_t hand, double lift) {
-  harp->hands[hand].lift = lift;
-  move_dampers(harp, hand);
+void harp_pedal(Harp* harp, uint32_t channel, double lift) {
+  harp->channels[channel].lift = lift;
+  move_dampers(harp, channel);
 }
 
-void harp_sostenuto(Harp* harp, uint32_t hand, bool is_down) {
-  const bool was_down = harp->hands[hand].is_sostenuto;
-  harp->hands[hand].is_sostenuto = is_down;
+void harp_sostenuto(Harp* harp, uint32_t channel, bool is_down) {
+  const bool was_down = harp->channels[channel].is_sostenuto;
+  harp->channels[channel].is_sostenuto = is_down;
   for (uint32_t i = 0; is_down != was_down && i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (string->hand == hand) {
-      string->is_caught = is_down && string->is_down;
+    if (string->channel == channel) {
+      string->is_caught = is_down && string->holders;
     }
   }
-  move_dampers(harp, hand);
+  move_dampers(harp, channel);
 }
 
-void harp_soften(Harp* harp, uint32_t hand, double softness) {
-  harp->hands[hand].softness = softness;
+void harp_soften(Harp* harp, uint32_t channel, double softness) {
+  harp->channels[channel].softness = softness;
 }
 
-void harp_bend(Harp* harp, uint32_t hand, double semitones) {
-  set_touch(harp, hand, &harp->hands[hand].touch.bend, semitones);
+void harp_bend(Harp* harp, uint32_t channel, double semitones) {
+  set_touch(harp, channel, &harp->channels[channel].touch.bend, semitones);
 }
 
-void harp_vibrato(Harp* harp, uint32_t hand, double semitones) {
-  set_touch(harp, hand, &harp->hands[hand].touch.vibrato, semitones);
+void harp_vibrato(Harp* harp, uint32_t channel, double semitones) {
+  set_touch(harp, channel, &harp->channels[channel].touch.vibrato, semitones);
 }
 
-void harp_press(Harp* harp, uint32_t hand, double pressure) {
-  set_touch(harp, hand, &harp->hands[hand].touch.pressure, pressure);
+void harp_press(Harp* harp, uint32_t channel, double pressure) {
+  set_touch(harp, channel, &harp->channels[channel].touch.pressure, pressure);
 }
 
-void harp_press_key(Harp* harp, uint32_t hand, uint32_t key, double pressure) {
-  HarpString* const string = harp_hands_held(harp, hand, key);
+void harp_press_key(Harp* harp, uint32_t channel, uint32_t key, double pressure) {
+  HarpString* const string = harp_channels_held(harp, channel, key);
   if (string && string->leaned_on != pressure) {
     string->leaned_on = pressure;
     retune(harp, string, harp->n_gesture);
   }
 }
 
-void harp_brighten(Harp* harp, uint32_t hand, double brightness) {
-  set_touch(harp, hand, &harp->hands[hand].touch.brightness, brightness);
+void harp_brighten(Harp* harp, uint32_t channel, double brightness) {
+  set_touch(harp, channel, &harp->channels[channel].touch.brightness, brightness);
 }
 
-void harp_breathe(Harp* harp, uint32_t hand, double breath) {
-  set_touch(harp, hand, &harp->hands[hand].touch.breath, breath);
+void harp_breathe(Harp* harp, uint32_t channel, double breath) {
+  set_touch(harp, channel, &harp->channels[channel].touch.breath, breath);
 }
 
-void harp_swell(Harp* harp, double gain) {
-  harp->swell = gain;
-  set_level(harp, harp->n_gesture);
+void harp_set_gain(Harp* harp, uint32_t channel, double gain) {
+  ramp_to(&harp->channels[channel].gain, (float)gain, harp->n_gesture);
 }
 
-void harp_all_notes_off(Harp* harp, uint32_t hand) {
+void harp_all_notes_off(Harp* harp, uint32_t channel) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    if (harp->strings[i].is_down && harp->strings[i].hand == hand) {
-      raise_key(harp, &harp->strings[i]);
+    if (harp_channels_holds(&harp->strings[i], channel)) {
+      raise_key(harp, &harp->strings[i], channel);
     }
   }
 }
 
-void harp_all_sound_off(Harp* harp) {
-  for (uint32_t hand = 0; hand < HARP_HANDS; ++hand) {
-    harp->hands[hand].lift = 0.0;
-    harp->hands[hand].is_sostenuto = false;
-  }
+void harp_all_sound_off(Harp* harp, uint32_t channel) {
+  harp->channels[channel].lift = 0.0;
+  harp->channels[channel].is_sostenuto = false;
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    string->is_down = false;
-    string->is_caught = false;
-    string->lift = 0.0;
-    harp_string_choke(string, &harp->patch, harp->n_gesture);
+    string->holders &= ~(1u << channel);
+    if (string->channel == channel) {
+      string->is_caught = false;
+      string->lift = 0.0;
+      harp_string_choke(string, &harp->patch, harp->n_gesture);
+    }
+  }
+}
+
+void harp_silence(Harp* harp) {
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    harp_all_sound_off(harp, channel);
   }
 }
 

@@ -1,8 +1,9 @@
 /**
-   A string for every key of the MIDI range, with its damper, the pedals, and the hands that play.
+   A string for every key of the MIDI range, with its damper, and the channels that play.
 
-   Where each note is to have a bend and a touch of its own, each has a hand; else one hand plays
-   all keys.  Two hands that hold the same key have a string each.
+   Each channel has pedals, a bend, a touch and a gain of its own, which act on what it has played.
+   Two channels that hold the same key have a string each, as long as there are spare ones; else
+   they share one, which sounds until the last of them lets go.
 
    No string is ever stolen.  A string that has died away is at rest in exact zeros and costs
    nothing.  The samples do not depend on how the frames are cut into calls of harp_run().
@@ -24,22 +25,24 @@
 
 enum {
   HARP_KEYS = 128,
-  HARP_HANDS = 16,
-  HARP_GUESTS = 32, /**< Strings for keys that more than one hand holds */
-  HARP_STRINGS = HARP_KEYS + HARP_GUESTS,
+  HARP_CHANNELS = 16,
+  HARP_SPARES = 32,               /**< Strings for keys that more than one channel holds */
+  HARP_BUSES = 1 + HARP_CHANNELS, /**< What channels of gain 1 play, and what each other one does */
+  HARP_STRINGS = HARP_KEYS + HARP_SPARES,
   HARP_MIX_FRAMES = 256, /**< Frames that are mixed at a time */
 };
 
 /** Largest displacement of one string plucked with full velocity, at level 1. */
 #define HARP_NOTE_PEAK 0.25
 
-/** A hand that plays, and the pedals under it. */
+/** A channel that plays, and the pedals under it. */
 typedef struct {
   HarpTouch touch;
+  Ramp gain;         /**< Of all that it has played */
   double lift;       /**< Of the dampers of keys that are up: 0 to 1 */
   double softness;   /**< Of the soft pedal, 0 to 1 */
   bool is_sostenuto; /**< The sostenuto pedal is down */
-} HarpHand;
+} HarpChannel;
 
 /** What is sounding. */
 typedef struct {
@@ -54,21 +57,21 @@ typedef struct Harp {
   double rate_hz;
   uint32_t n_gesture; /**< Frames that a player's gesture takes to act */
   HarpPatch patch;
-  HarpHand hands[HARP_HANDS];
-  double swell; /**< Gain beside the patch's level */
+  HarpChannel channels[HARP_CHANNELS];
   Ramp level;
   HarpPickups pickups;
   uint32_t n_fade;                  /**< Frames that the next fade will take */
-  HarpString strings[HARP_STRINGS]; /**< Of every key, and then of guests */
+  HarpString strings[HARP_STRINGS]; /**< Of every key, and then of spares */
   void* memory;                     /**< Memory of all strings; owned */
   HarpString* awake[HARP_STRINGS];  /**< The strings awake, while they are run */
+  uint8_t buses[HARP_STRINGS];      /**< Where each of them is heard */
   ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
   HarpBridge bridge;
   bool is_bowed;                /**< Whether a note has been bowed since all was still */
   double rest[2];               /**< What stands still on each side, once one has */
   HarpReading reading;          /**< How they were read last */
   float before[CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is differentiated */
-  float mix[CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
+  float mix[HARP_BUSES][CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;
 
 /**
@@ -82,7 +85,7 @@ Harp* harp_new(double rate_hz);
 /** Free a harp; NULL is ignored. */
 void harp_free(Harp* harp);
 
-/** Bring all strings to rest at once; keys and pedals up, no hand does anything. */
+/** Bring all strings to rest at once; keys and pedals up, no channel does anything. */
 void harp_reset(Harp* harp);
 
 /** Take a new patch; what rings gets there in `n_frames`, and no faster than by a gesture (0: at
@@ -101,63 +104,66 @@ void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames);
 */
 void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]);
 
-/* What hands do; each is a number less than HARP_HANDS, each key one less than HARP_KEYS.  What it
-   does to what rings takes a gesture, sample by sample. */
+/* What channels do; each is a number less than HARP_CHANNELS, each key one less than HARP_KEYS.
+   What it does to what rings takes a gesture, sample by sample. */
 
 /**
-   Key down: play its string.  A key that another hand holds is played on a guest's string, if there
-   is one left; a string whose key is up is taken over.
+   Key down: play its string.  A key that another channel holds is played on a spare string or, if
+   none is left, on the same; a string whose key is up is taken over.
 
    @param velocity  1 to 127, loudness as its square; harder plucks are a little brighter
 */
-void harp_note_on(Harp* harp, uint32_t hand, uint32_t key, uint32_t velocity);
+void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity);
 
-/** Key up: the damper falls, as far as pedals let it. */
-void harp_note_off(Harp* harp, uint32_t hand, uint32_t key);
+/** Key up: when no other channel holds the string, the damper falls, as far as pedals let it. */
+void harp_note_off(Harp* harp, uint32_t channel, uint32_t key);
 
-/** What the hand has played and whose keys are up keeps the touch that it has; only the pedals go
- * on acting on it. */
-void harp_let_go(Harp* harp, uint32_t hand);
+/** What the channel has played and whose keys are up keeps the touch that it has; only the pedals
+ * go on acting on it. */
+void harp_let_go(Harp* harp, uint32_t channel);
 
 /** Lift the dampers of all keys that are up: 0, they lie on their strings, to 1, they are off.
  * Between, they take a share of their way on a scale of octaves of τ. */
-void harp_pedal(Harp* harp, uint32_t hand, double lift);
+void harp_pedal(Harp* harp, uint32_t channel, double lift);
 
 /** Keep the dampers up of those keys that are down now, until it is up again. */
-void harp_sostenuto(Harp* harp, uint32_t hand, bool is_down);
+void harp_sostenuto(Harp* harp, uint32_t channel, bool is_down);
 
 /** The soft pedal, 0 to 1: the next notes are softer and duller. */
-void harp_soften(Harp* harp, uint32_t hand, double softness);
+void harp_soften(Harp* harp, uint32_t channel, double softness);
 
 /** Bend; what rings has exact pitch once it is there. */
-void harp_bend(Harp* harp, uint32_t hand, double semitones);
+void harp_bend(Harp* harp, uint32_t channel, double semitones);
 
 /** Let the pitch swing, to the sharp side by 0 to 1 semitones, at the patch's rate; its mean stays
  * exact. */
-void harp_vibrato(Harp* harp, uint32_t hand, double semitones);
+void harp_vibrato(Harp* harp, uint32_t channel, double semitones);
 
 /** Press on all keys, 0 to 1: bows are drawn up to twice as strong; what is not bowed swings more.
  */
-void harp_press(Harp* harp, uint32_t hand, double pressure);
+void harp_press(Harp* harp, uint32_t channel, double pressure);
 
 /** Press on one key that is down. */
-void harp_press_key(Harp* harp, uint32_t hand, uint32_t key, double pressure);
+void harp_press_key(Harp* harp, uint32_t channel, uint32_t key, double pressure);
 
 /** Make it brighter, −1 to 1: less sits between the masses of what rings, and the next notes are
  * played with something harder.  The fundamental decays as before. */
-void harp_brighten(Harp* harp, uint32_t hand, double brightness);
+void harp_brighten(Harp* harp, uint32_t channel, double brightness);
 
 /** Share of their strength that bows have, 0 to 1. */
-void harp_breathe(Harp* harp, uint32_t hand, double breath);
+void harp_breathe(Harp* harp, uint32_t channel, double breath);
 
-/** Gain of all strings beside the patch's level, ≥ 0. */
-void harp_swell(Harp* harp, double gain);
+/** Gain of all that the channel plays and has played, beside the patch's level, ≥ 0; 1 at first. */
+void harp_set_gain(Harp* harp, uint32_t channel, double gain);
 
-/** All keys of a hand up. */
-void harp_all_notes_off(Harp* harp, uint32_t hand);
+/** All keys of a channel up. */
+void harp_all_notes_off(Harp* harp, uint32_t channel);
 
-/** All keys and pedals up, and every string silent in a few hundredths of a second. */
-void harp_all_sound_off(Harp* harp);
+/** All keys and pedals of a channel up, and its strings silent in a few hundredths of a second. */
+void harp_all_sound_off(Harp* harp, uint32_t channel);
+
+/** The same of all channels. */
+void harp_silence(Harp* harp);
 
 /** Run `n_frames` and write them to `left` and `right`. */
 void harp_run(Harp* harp, uint32_t n_frames, float* left, float* right);

@@ -54,15 +54,17 @@ static HarpBridgeEnd end_of(const Chain* chain, const Tie* tie) {
   return end;
 }
 
-/* Strings that follow each other and need the same loop are stepped by one call. */
-static void add_work(HarpBridge* bridge, uint32_t i, const ChainPart* part, uint32_t n_taps) {
+/* Strings that follow each other, need the same loop and are heard on one bus are stepped by one
+ * call. */
+static void
+add_work(HarpBridge* bridge, uint32_t i, const ChainPart* part, uint32_t bus, uint32_t n_taps) {
   const ChainLoop loop = chain_loop(part->chain, n_taps);
   HarpBridgeBatch* const last = i > 0 ? &bridge->batches[bridge->n_batches - 1] : NULL;
   bridge->works[i] = chain_work(part, n_taps);
-  if (last && last->loop == loop && last->n < CHAIN_MAX_BATCH) {
+  if (last && last->loop == loop && last->bus == bus && last->n < CHAIN_MAX_BATCH) {
     ++last->n;
   } else {
-    bridge->batches[bridge->n_batches++] = (HarpBridgeBatch){loop, i, 1};
+    bridge->batches[bridge->n_batches++] = (HarpBridgeBatch){loop, bus, i, 1};
   }
 }
 
@@ -73,7 +75,7 @@ static void prepare(Harp* harp, uint32_t n_taps) {
   bridge->spring = 0.0;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
     const Tie* const tie = &harp->awake[i]->tie;
-    add_work(bridge, i, &harp->parts[i], n_taps);
+    add_work(bridge, i, &harp->parts[i], harp->buses[i], n_taps);
     bridge->ends[i] = end_of(harp->parts[i].chain, tie);
     bridge->is_gliding = bridge->is_gliding || tie->n_gliding > 0;
     bridge->spring += tie->now.spring;
@@ -130,7 +132,7 @@ static bool act(Harp* harp) {
   return is_new;
 }
 
-static void run_frame(Harp* harp, float* const* out) {
+static void run_frame(Harp* harp, uint32_t n, uint32_t n_taps) {
   HarpBridge* const bridge = &harp->bridge;
   if (bridge->is_gliding) {
     glide(harp);
@@ -138,6 +140,10 @@ static void run_frame(Harp* harp, float* const* out) {
   const double force = force_of(bridge);
   for (uint32_t b = 0; b < bridge->n_batches; ++b) {
     const HarpBridgeBatch* const batch = &bridge->batches[b];
+    float* out[CHAIN_MAX_TAPS];
+    for (uint32_t t = 0; t < n_taps; ++t) {
+      out[t] = &harp->mix[batch->bus][t][n];
+    }
     batch->loop(&bridge->works[batch->first], batch->n, 1, out);
   }
   pull(bridge);
@@ -175,7 +181,7 @@ uint32_t harp_bridge_stretch(const Harp* harp, uint32_t n_frames) {
   return n_frames;
 }
 
-uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps, float* const* out) {
+uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps) {
   const HarpBridge* const bridge = &harp->bridge;
   if (bridge->n_tied == 0) {
     return n_frames;
@@ -187,11 +193,7 @@ uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps, float* 
   prepare(harp, n_taps);
   uint32_t n = 0;
   for (bool is_over = false; n < n_frames && !is_over; ++n) {
-    float* at[CHAIN_MAX_TAPS];
-    for (uint32_t t = 0; t < n_taps; ++t) {
-      at[t] = out[t] + n;
-    }
-    run_frame(harp, at);
+    run_frame(harp, n, n_taps);
     is_over = is_touched && act(harp);
   }
   pass_strings(harp, n);

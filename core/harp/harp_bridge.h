@@ -31,6 +31,7 @@ typedef struct Harp Harp;
 /** Strings that are stepped by one call. */
 typedef struct {
   ChainLoop loop;
+  uint32_t bus; /**< Where they are heard */
   uint32_t first;
   uint32_t n;
 } HarpBridgeBatch;
@@ -70,9 +71,10 @@ void harp_bridge_gather(Harp* harp, uint32_t n_tied);
 /** Frames, at most `n_frames`, after which harp_bridge_pass() is to be told. */
 uint32_t harp_bridge_stretch(const Harp* harp, uint32_t n_frames);
 
-/** Run the strings that are tied at most `n_frames`, and tell them; how many they were, which is
- * less where a hammer or a bow has left a string, or is followed by ear. */
-uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps, float* const* out);
+/** Run the strings that are tied at most `n_frames`, add them to their buses, and tell them; how
+ * many they were, which is less where a hammer or a bow has left a string, or is followed by ear.
+ */
+uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps);
 
 /** After those frames: on the grid, see who is to wake, and who may sleep. */
 void harp_bridge_pass(Harp* harp, uint32_t n_frames);

@@ -43,16 +43,35 @@ static void add_part(Harp* harp, uint32_t i, HarpString* string, const HarpReadi
   harp->awake[i] = string;
 }
 
-/* Those of the strings awake that are tied to the bridge, or those that are not. */
+/* Channels whose gain is 1, and stays there, are heard as they are: as if there were no gains. */
+static uint8_t bus_of(const Harp* harp, uint32_t channel) {
+  const Ramp* const gain = &harp->channels[channel].gain;
+  return gain->value == 1.0f && gain->n_left == 0 ? 0 : (uint8_t)(1 + channel);
+}
+
+/* Those of the strings awake that are tied to the bridge, or those that are not, of one bus. */
 static uint32_t
-gather_some(Harp* harp, uint32_t n_parts, bool are_tied, const HarpReading* reading) {
+gather_bus(Harp* harp, uint32_t n_parts, bool are_tied, uint8_t bus, const HarpReading* reading) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (string->voice.is_awake && tie_is_on(&string->tie) == are_tied) {
+    if (string->voice.is_awake && tie_is_on(&string->tie) == are_tied &&
+        bus_of(harp, string->channel) == bus) {
       chain_share(&string->voice.chain, are_tied);
       string->voice.is_kept = string->voice.is_kept && are_tied;
+      harp->buses[n_parts] = bus;
       add_part(harp, n_parts++, string, reading);
     }
+  }
+  return n_parts;
+}
+
+/* Of all buses, one after the other. */
+static uint32_t
+gather_some(Harp* harp, uint32_t n_parts, bool are_tied, const HarpReading* reading) {
+  n_parts = gather_bus(harp, n_parts, are_tied, 0, reading);
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    const uint8_t bus = bus_of(harp, channel);
+    n_parts = bus > 0 ? gather_bus(harp, n_parts, are_tied, bus, reading) : n_parts;
   }
   return n_parts;
 }
@@ -70,8 +89,9 @@ static float read_now(const Harp* harp, uint32_t n_parts, uint32_t t) {
   for (uint32_t i = 0; i < n_parts; ++i) {
     const ChainPart* const part = &harp->parts[i];
     const ChainTap* const tap = &part->taps[t];
-    sum += tap->weight[0] * chain_position(part->chain, tap->mass[0]) +
-           tap->weight[1] * chain_position(part->chain, tap->mass[1]);
+    const float gain = harp->channels[harp->awake[i]->channel].gain.value;
+    sum += gain * (tap->weight[0] * chain_position(part->chain, tap->mass[0]) +
+                   tap->weight[1] * chain_position(part->chain, tap->mass[1]));
   }
   return sum;
 }
@@ -95,8 +115,8 @@ mix_down(Harp* harp, const HarpReading* reading, uint32_t n_frames, float* left,
     const float level = ramp_next(&harp->level);
     const float fade = ramp_next(&harp->pickups.fade);
     for (uint32_t s = 0; s < n_sides; ++s) {
-      const float now = harp->mix[s][n];
-      const float old = reading->is_fading ? harp->mix[n_sides + s][n] : now;
+      const float now = harp->mix[0][s][n];
+      const float old = reading->is_fading ? harp->mix[0][n_sides + s][n] : now;
       sides[s][n] = level * (old + fade * (now - old));
     }
   }
@@ -134,29 +154,38 @@ static uint32_t least(uint32_t a, uint32_t b) {
   return a < b ? a : b;
 }
 
-/* Frames that can be run in one go: the pickups may not change within them but by their own ramp.
- */
+/* Frames that can be run in one go: pickups and gains may not change within them but by their own
+ * ramps. */
 static uint32_t stretch(const Harp* harp, uint32_t n_frames) {
-  const uint32_t n = least(n_frames, HARP_MIX_FRAMES);
-  const uint32_t n_left = harp->pickups.fade.n_left;
-  return n_left > 0 ? least(n, n_left) : n;
+  uint32_t n = least(n_frames, HARP_MIX_FRAMES);
+  n = harp->pickups.fade.n_left > 0 ? least(n, harp->pickups.fade.n_left) : n;
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    const uint32_t n_left = harp->channels[channel].gain.n_left;
+    n = n_left > 0 ? least(n, n_left) : n;
+  }
+  return n;
 }
 
 static uint32_t stretch_of(const HarpString* string) {
   return harp_string_is_touched(string) ? 1 : harp_string_stretch(string);
 }
 
+/* Where the taps of a bus go, from a frame on. */
+static void outputs_of(Harp* harp, uint32_t bus, uint32_t from, uint32_t n_taps, float** out) {
+  for (uint32_t t = 0; t < n_taps; ++t) {
+    out[t] = harp->mix[bus][t] + from;
+  }
+}
+
 /* Run a string that something happens to on the way. */
-static void run_in_pieces(Harp* harp, uint32_t i, uint32_t n_frames, uint32_t n_taps, float** out) {
+static void run_in_pieces(Harp* harp, uint32_t i, uint32_t n_frames, uint32_t n_taps) {
   HarpString* const string = harp->awake[i];
   for (uint32_t done = 0; done < n_frames && string->voice.is_awake;) {
     const uint32_t n = least(n_frames - done, stretch_of(string));
     const uint32_t n_masses = string->voice.chain.n_masses;
-    float* rest[CHAIN_MAX_TAPS];
-    for (uint32_t t = 0; t < n_taps; ++t) {
-      rest[t] = out[t] + done;
-    }
-    chain_run_all(&harp->parts[i], 1, n, n_taps, rest);
+    float* out[CHAIN_MAX_TAPS];
+    outputs_of(harp, harp->buses[i], done, n_taps, out);
+    chain_run_all(&harp->parts[i], 1, n, n_taps, out);
     harp_string_act(string);
     harp_string_pass(string, &harp->patch, n);
     /* A swing may have taken some of its masses, and with them the places where it is read. */
@@ -167,22 +196,72 @@ static void run_in_pieces(Harp* harp, uint32_t i, uint32_t n_frames, uint32_t n_
   }
 }
 
-/* Run the strings that are not tied in their order, those that nothing happens to side by side. */
+/* Run strings of one bus to which nothing happens side by side. */
 static void
-run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps, float** out) {
+run_together(Harp* harp, uint32_t first, uint32_t end, uint32_t n_frames, uint32_t n_taps) {
+  if (first < end) {
+    float* out[CHAIN_MAX_TAPS];
+    outputs_of(harp, harp->buses[first], 0, n_taps, out);
+    chain_run_all(&harp->parts[first], end - first, n_frames, n_taps, out);
+  }
+  for (uint32_t i = first; i < end; ++i) {
+    harp_string_pass(harp->awake[i], &harp->patch, n_frames);
+  }
+}
+
+/* Run the strings that are not tied in their order, those that nothing happens to together. */
+static void run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps) {
   uint32_t first = harp->bridge.n_tied;
-  for (uint32_t i = first; i <= n_parts; ++i) {
-    if (i < n_parts && stretch_of(harp->awake[i]) > n_frames) {
-      continue;
+  for (uint32_t i = first; i < n_parts; ++i) {
+    const bool is_new_bus = harp->buses[i] != harp->buses[first];
+    const bool is_apart = stretch_of(harp->awake[i]) <= n_frames;
+    if (is_new_bus || is_apart) {
+      run_together(harp, first, i, n_frames, n_taps);
+      first = i;
     }
-    chain_run_all(&harp->parts[first], i - first, n_frames, n_taps, out);
-    for (; first < i; ++first) {
-      harp_string_pass(harp->awake[first], &harp->patch, n_frames);
+    if (is_apart) {
+      run_in_pieces(harp, i, n_frames, n_taps);
+      first = i + 1;
     }
-    if (i < n_parts) {
-      run_in_pieces(harp, i, n_frames, n_taps, out);
+  }
+  run_together(harp, first, n_parts, n_frames, n_taps);
+}
+
+/* Silence the buses that are about to be heard. */
+static void clear_buses(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps) {
+  bool is_clear[HARP_BUSES] = {false};
+  for (uint32_t i = 0; i <= n_parts; ++i) {
+    const uint32_t bus = i < n_parts ? harp->buses[i] : 0;
+    for (uint32_t t = 0; t < n_taps && !is_clear[bus]; ++t) {
+      memset(harp->mix[bus][t], 0, n_frames * sizeof(float));
     }
-    first = i + 1;
+    is_clear[bus] = true;
+  }
+}
+
+static void add_bus(Harp* harp, uint32_t channel, uint32_t n_frames, uint32_t n_taps) {
+  Ramp* const gain = &harp->channels[channel].gain;
+  for (uint32_t n = 0; n < n_frames; ++n) {
+    const float now = ramp_next(gain);
+    for (uint32_t t = 0; t < n_taps; ++t) {
+      harp->mix[0][t][n] += now * harp->mix[1 + channel][t][n];
+    }
+  }
+}
+
+/* Add what each channel with a gain of its own plays to what the others do; a gain that nothing is
+ * heard with goes on all the same. */
+static void add_buses(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps) {
+  bool is_heard[HARP_BUSES] = {false};
+  for (uint32_t i = 0; i < n_parts; ++i) {
+    is_heard[harp->buses[i]] = true;
+  }
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    if (is_heard[1 + channel]) {
+      add_bus(harp, channel, n_frames, n_taps);
+    } else {
+      ramp_skip(&harp->channels[channel].gain, n_frames);
+    }
   }
 }
 
@@ -191,17 +270,15 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
   const HarpReading reading = harp_pickups_reading(&harp->pickups);
   const uint32_t n_parts = gather(harp, &reading);
   const uint32_t n_most = harp_bridge_stretch(harp, stretch(harp, n_frames));
-  float* out[CHAIN_MAX_TAPS];
-  for (uint32_t t = 0; t < reading.n_taps; ++t) {
-    out[t] = memset(harp->mix[t], 0, n_most * sizeof(float));
-  }
+  clear_buses(harp, n_parts, n_most, reading.n_taps);
   take_reading(harp, &reading, n_parts);
-  const uint32_t n = harp_bridge_run(harp, n_most, reading.n_taps, out);
-  run_strings(harp, n_parts, n, reading.n_taps, out);
+  const uint32_t n = harp_bridge_run(harp, n_most, reading.n_taps);
+  run_strings(harp, n_parts, n, reading.n_taps);
+  add_buses(harp, n_parts, n, reading.n_taps);
   harp_bridge_pass(harp, n);
   for (uint32_t t = 0; t < reading.n_taps; ++t) {
     if (reading.ears[t].pickup_type == PICKUP_VELOCITY) {
-      pickup_differentiate(out[t], n, &harp->before[t]);
+      pickup_differentiate(harp->mix[0][t], n, &harp->before[t]);
     }
   }
   mix_down(harp, &reading, n, left, right);

@@ -75,8 +75,8 @@ void harp_string_rest(HarpString* string) {
   string->tie = (Tie){0};
   string->lift = 0.0;
   string->has_acted = false;
-  string->hand = 0;
-  string->is_down = false;
+  string->channel = 0;
+  string->holders = 0;
   string->is_caught = false;
   string->is_let_go = false;
   string->leaned_on = 0.0;

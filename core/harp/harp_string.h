@@ -1,6 +1,6 @@
 /**
    One string of the harp: the key it belongs to, its damper, what it is played with, and what the
-   hand that played it does to it since.
+   channel that played it does to it since.
 
    Thread: one at a time; real-time safe.
 */
@@ -18,7 +18,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** What a hand does to a string that it has played. */
+/** What a channel does to a string that it has played. */
 typedef struct {
   double bend;       /**< [semitones] */
   double vibrato;    /**< To the sharp side [semitones], 0 to 1 */
@@ -27,7 +27,7 @@ typedef struct {
   double breath;     /**< Share of the bow's strength, 0 to 1 */
 } HarpTouch;
 
-/** A hand that does nothing. */
+/** A channel that does nothing. */
 #define HARP_TOUCH_NONE ((HarpTouch){.breath = 1.0})
 
 /** Zero is a string that is asleep and has no memory. */
@@ -48,14 +48,14 @@ typedef struct {
   Tie tie;              /**< How */
 
   /* Who plays it; the harp's */
-  uint32_t hand;    /**< The hand that played it last */
-  bool is_down;     /**< Its key is down */
+  uint32_t holders; /**< The channels that hold its key down, a bit each */
+  uint32_t channel; /**< The channel that played it last */
   bool is_caught;   /**< Its damper is held up by the sostenuto pedal */
-  bool is_let_go;   /**< It follows the hand no more */
+  bool is_let_go;   /**< It follows the channel no more */
   double leaned_on; /**< Pressure of its key alone, 0 to 1 */
 } HarpString;
 
-/** The pitch of a string [Hz], bent as its hand bends it but for the vibrato. */
+/** The pitch of a string [Hz], bent as its channel bends it but for the vibrato. */
 double harp_string_pitch_hz(const HarpString* string, const HarpPatch* patch);
 
 /** Lay a string at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT; it

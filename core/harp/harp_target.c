@@ -2,13 +2,13 @@
 
 #include <math.h>
 
-/* How the hand's brightness moves the loss between the masses: towards a tenth of it, or up, on a
- * scale of octaves, to its fourth root. */
+/* How the channel's brightness moves the loss between the masses: towards a tenth of it, or up, on
+ * a scale of octaves, to its fourth root. */
 static const double BRIGHTEST_LOSS = 0.1;
 static const double DARKEST_LOSS = 0.75;
 static const double LEAST_DARK_LOSS = 1e-5;
 
-/* What is between the masses when the hand makes the string brighter, or darker. */
+/* What is between the masses when the channel makes the string brighter, or darker. */
 static double loss_of(const HarpString* string, const HarpPatch* patch) {
   const double brightness = string->touch.brightness;
   if (brightness >= 0.0) {

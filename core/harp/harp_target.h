@@ -1,6 +1,6 @@
 /**
-   What the patch, the damper and the hand ask of a string of the harp: its pitch and decay, and how
-   the bridge holds it.
+   What the patch, the damper and the channel ask of a string of the harp: its pitch and decay, and
+   how the bridge holds it.
 
    Thread: any; real-time safe.
 */

@@ -271,13 +271,13 @@ static void all_sound_off_is_silence_in_a_moment(void** state) {
     harp_note_on(harp, 0, key, 127);
   }
   run_for(harp, 1000);
-  harp_all_sound_off(harp);
+  harp_silence(harp);
   run_for(harp, 4800);
   assert_true(peak_of(left + 4700, 100) < 1e-6);
   run_for(harp, 9600);
   assert_int_equal(harp_report(harp).n_strings, 0);
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    assert_false(harp->strings[i].is_down || harp->strings[i].is_caught);
+    assert_false(harp->strings[i].holders || harp->strings[i].is_caught);
   }
   harp_set_patch(harp, &plain, 0);
   harp_note_on(harp, 0, 60, 100);

@@ -62,7 +62,7 @@ static void bridge_leaves_nothing_behind(void** state) {
   harp_run(harp, RATE, left, right);
   assert_int_equal(harp_report(harp).n_strings, 88);
   harp_set_patch(harp, &still, 480);
-  harp_all_sound_off(harp);
+  harp_silence(harp);
   harp_run(harp, RATE, left, right);
   assert_int_equal(harp_report(harp).n_strings, 0);
   assert_int_equal(harp->bridge.n_tied, 0);
@@ -92,7 +92,7 @@ static void strings_wake_in_the_same_order_again(void** state) {
   press_pedal_and_play(harp, 1000);
   assert_in_range(harp_report(harp).n_strings, 2, 87);
   harp_pedal(harp, 0, 0.0);
-  harp_all_sound_off(harp);
+  harp_silence(harp);
   harp_run(harp, RATE, left, right);
   assert_int_equal(harp_report(harp).n_strings, 0);
   press_pedal_and_play(harp, RATE);

@@ -60,7 +60,7 @@ static void gesture(Harp* harp, Random* random) {
     break;
   case 7:
     if (random_below(random, 8) == 0) {
-      harp_all_sound_off(harp);
+      harp_silence(harp);
     }
     break;
   default: {

@@ -174,7 +174,7 @@ static void all_sound_off_and_reset_silence_all_ways(void** state) {
         harps_restart(harp, &patch);
         harp_note_on(harp, 0, key, 127);
         run(harp, 0.0, to_s);
-        harp_all_sound_off(harp);
+        harp_silence(harp);
         run(harp, to_s, 1.5);
         size_t last = (size_t)(to_s * RATE);
         for (size_t i = last; i < RATE * 3 / 2; ++i) {

@@ -86,7 +86,7 @@ static bool gesture(Harp* harp, Random* random) {
     break;
   case 9:
     if (random_below(random, 4) == 0) {
-      harp_all_sound_off(harp);
+      harp_silence(harp);
     }
     break;
   case 10:

@@ -1,5 +1,5 @@
 /* The pedals under the hands that play the harp. */
-#include "tests/support/hands.h"
+#include "tests/support/channels.h"
 #include "tests/support/harps.h"
 #include "tests/support/measure.h"
 
@@ -11,23 +11,23 @@
 
 #include <cmocka.h>
 
-enum { RATE = HANDS_RATE, KEY = 57 };
+enum { RATE = CHANNELS_RATE, KEY = 57 };
 
 static float left[RATE];
 
 static void a_pedal_in_part_damps_in_part(void** state) {
   (void)state;
-  Harp* const harp = hands_harp();
+  Harp* const harp = channels_harp();
   const HarpString* const string = &harp->strings[KEY];
   double last_s = 0.0;
   harp_note_on(harp, 0, KEY, 100);
   harp_note_off(harp, 0, KEY);
   for (int step = 0; step <= 4; ++step) {
     const double lift = 0.25 * step;
-    const double tau_s = HANDS_RELEASE_S * pow(hands_open_s(KEY) / HANDS_RELEASE_S, lift);
+    const double tau_s = CHANNELS_RELEASE_S * pow(channels_open_s(KEY) / CHANNELS_RELEASE_S, lift);
     harp_pedal(harp, 0, lift);
     assert_true(tau_s > last_s);
-    hands_check_decay(harp, string, tau_s);
+    channels_check_decay(harp, string, tau_s);
     last_s = tau_s;
   }
   harp_free(harp);
@@ -36,32 +36,32 @@ static void a_pedal_in_part_damps_in_part(void** state) {
 /* Nor does one that would not damp it make it ring for longer. */
 static void a_damper_in_part_never_lengthens(void** state) {
   (void)state;
-  HarpPatch slow = hands_patch();
+  HarpPatch slow = channels_patch();
   slow.string.release_s = 10.0;
   Harp* const harp = harps_new(RATE, &slow);
   harp_note_on(harp, 0, KEY, 100);
   harp_note_off(harp, 0, KEY);
   harp_pedal(harp, 0, 0.5);
-  hands_check_decay(harp, &harp->strings[KEY], hands_open_s(KEY));
+  channels_check_decay(harp, &harp->strings[KEY], channels_open_s(KEY));
   harp_free(harp);
 }
 
 static void a_pedal_is_its_hands_own(void** state) {
   (void)state;
-  Harp* const harp = hands_harp();
+  Harp* const harp = channels_harp();
   harp_pedal(harp, 2, 1.0);
   harp_note_on(harp, 2, KEY, 100);
   harp_note_on(harp, 3, KEY + 1, 100);
   harp_note_off(harp, 2, KEY);
   harp_note_off(harp, 3, KEY + 1);
-  hands_check_decay(harp, &harp->strings[KEY], hands_open_s(KEY));
-  hands_check_decay(harp, &harp->strings[KEY + 1], HANDS_RELEASE_S);
+  channels_check_decay(harp, &harp->strings[KEY], channels_open_s(KEY));
+  channels_check_decay(harp, &harp->strings[KEY + 1], CHANNELS_RELEASE_S);
   harp_free(harp);
 }
 
 static void sostenuto_holds_what_was_down(void** state) {
   (void)state;
-  Harp* const harp = hands_harp();
+  Harp* const harp = channels_harp();
   const HarpString* const caught = &harp->strings[KEY];
   const HarpString* const later = &harp->strings[KEY + 2];
   harp_note_on(harp, 0, KEY, 100);
@@ -69,48 +69,48 @@ static void sostenuto_holds_what_was_down(void** state) {
   harp_note_on(harp, 0, KEY + 2, 100);
   harp_note_off(harp, 0, KEY);
   harp_note_off(harp, 0, KEY + 2);
-  hands_check_decay(harp, caught, hands_open_s(KEY));
-  hands_check_decay(harp, later, HANDS_RELEASE_S);
+  channels_check_decay(harp, caught, channels_open_s(KEY));
+  channels_check_decay(harp, later, CHANNELS_RELEASE_S);
   /* Said again it catches nothing more, and a key played again is not let go by it. */
   harp_note_on(harp, 0, KEY + 2, 100);
   harp_sostenuto(harp, 0, true);
   harp_note_off(harp, 0, KEY + 2);
-  hands_check_decay(harp, later, HANDS_RELEASE_S);
+  channels_check_decay(harp, later, CHANNELS_RELEASE_S);
   harp_sostenuto(harp, 0, false);
-  hands_check_decay(harp, caught, HANDS_RELEASE_S);
+  channels_check_decay(harp, caught, CHANNELS_RELEASE_S);
   /* What another hand takes over is that hand's. */
   harp_note_on(harp, 0, KEY, 100);
   harp_sostenuto(harp, 0, true);
   harp_note_off(harp, 0, KEY);
   harp_note_on(harp, 1, KEY, 100);
   harp_note_off(harp, 1, KEY);
-  hands_check_decay(harp, caught, HANDS_RELEASE_S);
+  channels_check_decay(harp, caught, CHANNELS_RELEASE_S);
   /* And all sound off lets the pedal up. */
-  harp_all_sound_off(harp);
+  harp_silence(harp);
   harp_note_on(harp, 0, KEY, 100);
   harp_sostenuto(harp, 0, true);
   harp_note_off(harp, 0, KEY);
-  hands_check_decay(harp, caught, hands_open_s(KEY));
+  channels_check_decay(harp, caught, channels_open_s(KEY));
   harp_free(harp);
 }
 
 static void pedals_hold_together(void** state) {
   (void)state;
-  Harp* const harp = hands_harp();
+  Harp* const harp = channels_harp();
   harp_note_on(harp, 0, KEY, 100);
   harp_sostenuto(harp, 0, true);
   harp_pedal(harp, 0, 1.0);
   harp_note_off(harp, 0, KEY);
   harp_sostenuto(harp, 0, false);
-  hands_check_decay(harp, &harp->strings[KEY], hands_open_s(KEY));
+  channels_check_decay(harp, &harp->strings[KEY], channels_open_s(KEY));
   harp_sostenuto(harp, 0, true);
   harp_pedal(harp, 0, 0.0);
-  hands_check_decay(harp, &harp->strings[KEY], HANDS_RELEASE_S);
+  channels_check_decay(harp, &harp->strings[KEY], CHANNELS_RELEASE_S);
   harp_free(harp);
 }
 
 static double loudness(Harp* harp, double softness) {
-  const HarpPatch plain = hands_patch();
+  const HarpPatch plain = channels_patch();
   harps_restart(harp, &plain);
   harp_soften(harp, 0, softness);
   harp_note_on(harp, 0, KEY, 100);
@@ -120,7 +120,7 @@ static double loudness(Harp* harp, double softness) {
 
 static void the_soft_pedal_softens_the_next_notes(void** state) {
   (void)state;
-  Harp* const harp = hands_harp();
+  Harp* const harp = channels_harp();
   const double loud = loudness(harp, 0.0);
   const double half = loudness(harp, 0.5);
   const double soft = loudness(harp, 1.0);

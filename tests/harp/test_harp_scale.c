@@ -241,7 +241,7 @@ static void it_outlives_a_reset_and_a_patch(void** state) {
   harp_reset(harp);
   harp_set_patch(harp, &plain, 0);
   harp_note_on(harp, 0, 60, 100);
-  harp_all_sound_off(harp);
+  harp_silence(harp);
   assert_true(cents_off(harp, 60, 440.0 * exp2(2.5 / 12.0)) < 1e-5);
   harp_free(harp);
 }

@@ -1,4 +1,4 @@
-/* Whatever sixteen hands do to the harp at once: it sounds the same however it is called, and
+/* Whatever sixteen channels do to the harp at once: it sounds the same however it is called, and
  * nothing is left behind. */
 #include "tests/support/harps.h"
 #include "tests/support/measure.h"
@@ -18,52 +18,52 @@ enum { RATE = 48000, MOST = 2 * RATE };
 static float left[MOST];
 static float other[MOST];
 
-/* Any hand, and anything that it can do. */
+/* Any channel, and anything that it can do. */
 static void gesture(Harp* harp, Random* random) {
-  const uint32_t hand = random_below(random, HARP_HANDS);
+  const uint32_t channel = random_below(random, HARP_CHANNELS);
   const uint32_t key = 40 + random_below(random, 8);
   const double share =
       random_below(random, 4) ? random_between(random, 0.0, 1.0) : (double)random_below(random, 2);
   HarpPatch patch = harps_touched_patch(random_below(random, HARPS_N_WAYS));
   switch (random_below(random, 16)) {
   case 0:
-    harp_bend(harp, hand, 192.0 * (share - 0.5));
+    harp_bend(harp, channel, 192.0 * (share - 0.5));
     break;
   case 1:
-    harp_bend(harp, hand, 4.0 * (share - 0.5));
+    harp_bend(harp, channel, 4.0 * (share - 0.5));
     break;
   case 2:
-    harp_vibrato(harp, hand, share);
+    harp_vibrato(harp, channel, share);
     break;
   case 3:
-    harp_press(harp, hand, share);
+    harp_press(harp, channel, share);
     break;
   case 4:
-    harp_press_key(harp, hand, key, share);
+    harp_press_key(harp, channel, key, share);
     break;
   case 5:
-    harp_brighten(harp, hand, 2.0 * share - 1.0);
+    harp_brighten(harp, channel, 2.0 * share - 1.0);
     break;
   case 6:
-    harp_breathe(harp, hand, share);
+    harp_breathe(harp, channel, share);
     break;
   case 7:
-    harp_swell(harp, share);
+    harp_set_gain(harp, channel, share);
     break;
   case 8:
-    harp_pedal(harp, hand, share);
+    harp_pedal(harp, channel, share);
     break;
   case 9:
-    harp_sostenuto(harp, hand, share > 0.5);
+    harp_sostenuto(harp, channel, share > 0.5);
     break;
   case 10:
-    harp_soften(harp, hand, share);
+    harp_soften(harp, channel, share);
     break;
   case 11:
-    harp_let_go(harp, hand);
+    harp_let_go(harp, channel);
     break;
   case 12:
-    harp_note_off(harp, hand, key);
+    harp_note_off(harp, channel, key);
     break;
   case 13:
     patch.string.damping_per_s = random_log_between(random, 0.5, 100.0);
@@ -71,13 +71,13 @@ static void gesture(Harp* harp, Random* random) {
     break;
   case 14:
     if (random_below(random, 8) == 0) {
-      harp_all_sound_off(harp);
+      harp_silence(harp);
     } else {
-      harp_all_notes_off(harp, hand);
+      harp_all_notes_off(harp, channel);
     }
     break;
   default:
-    harp_note_on(harp, hand, key, 1 + random_below(random, 127));
+    harp_note_on(harp, channel, key, 1 + random_below(random, 127));
     break;
   }
 }
@@ -122,7 +122,7 @@ static void touches_are_the_same_however_calls_are_cut(void** state) {
   harp_free(harp);
 }
 
-static void nothing_sticks_after_a_storm_of_hands(void** state) {
+static void nothing_sticks_after_a_storm_of_channels(void** state) {
   static const double rates_hz[] = {8000.0, 48000.0, 192000.0};
   (void)state;
   Random random = random_start();
@@ -133,7 +133,7 @@ static void nothing_sticks_after_a_storm_of_hands(void** state) {
     for (int round = 0; round < 4; ++round) {
       play_storm(harp, random_below(&random, 1U << 31), MOST, 2 * RATE, left);
       peak = fmax(peak, measure_peak(left, 2 * RATE));
-      harp_all_sound_off(harp);
+      harp_silence(harp);
       const size_t n = (size_t)(0.2 * rates_hz[r]);
       harps_run(harp, n, left, NULL);
       harps_run(harp, n, left, NULL);
@@ -142,14 +142,14 @@ static void nothing_sticks_after_a_storm_of_hands(void** state) {
     }
     harp_free(harp);
   }
-  /* Sixteen hands at eight keys, bows and bends at their worst. */
+  /* Sixteen channels at eight keys, bows and bends at their worst. */
   assert_within("largest sample", peak, 40 * 0.25 * 4.0);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(touches_are_the_same_however_calls_are_cut),
-      cmocka_unit_test(nothing_sticks_after_a_storm_of_hands),
+      cmocka_unit_test(nothing_sticks_after_a_storm_of_channels),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -177,7 +177,7 @@ static void a_swell_is_a_gain_and_no_step(void** state) {
   harps_restart(harp, &patch);
   harp_note_on(harp, 0, KEY, 100);
   harps_run(harp, at, other, NULL);
-  harp_swell(harp, 0.25);
+  harp_set_gain(harp, 0, 0.25);
   harps_run(harp, RATE - at, other + at, NULL);
   assert_memory_equal(left, other, at * sizeof(float));
   assert_true(harps_largest_step(other + at, RATE - at) <=

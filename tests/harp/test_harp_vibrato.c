@@ -114,7 +114,7 @@ static void pressure_swings_the_keys_that_it_is_on(void** state) {
   assert_true(swing_of(harp, KEY) < 1e-4);
   harp_note_on(harp, 1, KEY, 100);
   harp_press_key(harp, 1, KEY, 1.0);
-  harp_all_sound_off(harp);
+  harp_silence(harp);
   harp_note_on(harp, 1, KEY, 100);
   harps_run(harp, 1000, NULL, NULL);
   assert_true(swing_of(harp, KEY) < 1e-4);

@@ -52,7 +52,7 @@ static void gesture(Harp* harp, Random* random) {
   } else if (choice == 13) {
     harp_pedal(harp, 0, bend > 1.0 ? 1.0 : 0.0);
   } else if (choice == 14) {
-    harp_all_sound_off(harp);
+    harp_silence(harp);
   } else {
     harp_note_off(harp, 0, key);
   }
@@ -122,7 +122,7 @@ static void a_keys_sound_does_not_depend_on_when_it_is_played(void** state) {
     harps_restart(harp, &bow);
     harp_note_on(harp, 0, 60, 127);
     harps_run(harp, 10000, NULL, NULL);
-    harp_all_sound_off(harp);
+    harp_silence(harp);
     harps_run(harp, RATE, NULL, NULL);
     harp_set_patch(harp, &patch, 0);
     play_late(harp, 777, other[0], other[1]);
@@ -187,7 +187,7 @@ static void a_storm_of_ten_thousand_gestures_is_survived(void** state) {
       assert_true(isfinite(measure_peak(left, n)) && isfinite(measure_peak(right, n)));
       assert_true(harp_report(harp).headroom > 0.0);
     }
-    harp_all_sound_off(harp);
+    harp_silence(harp);
     const size_t n = (size_t)(0.4 * rates_hz[r]);
     harps_run(harp, n, left, right);
     harps_run(harp, n, left, right);

@@ -51,7 +51,7 @@ typedef struct {
 
 static inline void fake_note(Harp* harp, FakeVerb verb, uint32_t hand, uint32_t key, double value) {
   HarpFake* const fake = (HarpFake*)harp;
-  assert(fake->n_calls < FAKE_CALLS && hand < HARP_HANDS && key < HARP_KEYS);
+  assert(fake->n_calls < FAKE_CALLS && hand < HARP_CHANNELS && key < HARP_KEYS);
   fake->calls[fake->n_calls++] = (FakeCall){verb, hand, key, value};
 }
 
@@ -103,15 +103,17 @@ void harp_breathe(Harp* harp, uint32_t hand, double breath) {
   fake_note(harp, FAKE_BREATHE, hand, 0, breath);
 }
 
-void harp_swell(Harp* harp, double gain) {
-  fake_note(harp, FAKE_SWELL, 0, 0, gain);
+void harp_set_gain(Harp* harp, uint32_t channel, double gain) {
+  if (channel == 0) {
+    fake_note(harp, FAKE_SWELL, 0, 0, gain);
+  }
 }
 
 void harp_all_notes_off(Harp* harp, uint32_t hand) {
   fake_note(harp, FAKE_ALL_NOTES_OFF, hand, 0, 0.0);
 }
 
-void harp_all_sound_off(Harp* harp) {
+void harp_silence(Harp* harp) {
   fake_note(harp, FAKE_ALL_SOUND_OFF, 0, 0, 0.0);
 }
 

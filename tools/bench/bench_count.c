@@ -51,7 +51,7 @@ static bool count_harp(bool is_asleep, uint32_t n_keys, uint32_t n_frames) {
     harp_note_on(harp, 0, (LOWEST_KEY + i) % HARP_KEYS, 100);
   }
   if (is_asleep) {
-    harp_all_sound_off(harp);
+    harp_silence(harp);
     while (harp_report(harp).n_strings > 0) {
       run_harp(harp, FRAMES);
     }

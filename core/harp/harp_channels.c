@@ -1,0 +1,58 @@
+#include "core/harp/harp_channels.h"
+
+void harp_channels_reset(HarpChannel channels[HARP_CHANNELS]) {
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    channels[channel] = (HarpChannel){.touch = HARP_TOUCH_NONE};
+    ramp_init(&channels[channel].gain, 1.0f);
+  }
+}
+
+bool harp_channels_holds(const HarpString* string, uint32_t channel) {
+  return string->holders >> channel & 1;
+}
+
+HarpString* harp_channels_held(Harp* harp, uint32_t channel, uint32_t key) {
+  if (harp_channels_holds(&harp->strings[key], channel)) {
+    return &harp->strings[key];
+  }
+  for (uint32_t i = HARP_KEYS; i < HARP_STRINGS; ++i) {
+    HarpString* const spare = &harp->strings[i];
+    if (spare->key == key && harp_channels_holds(spare, channel)) {
+      return spare;
+    }
+  }
+  return NULL;
+}
+
+/* A spare string for a key: one that rings at that key, or one at rest. */
+static HarpString* find_spare(Harp* harp, uint32_t key) {
+  HarpString* found = NULL;
+  for (uint32_t i = HARP_KEYS; i < HARP_STRINGS; ++i) {
+    HarpString* const spare = &harp->strings[i];
+    if (!spare->holders && spare->voice.is_awake && spare->key == key) {
+      return spare;
+    }
+    if (!spare->holders && !spare->voice.is_awake && !found) {
+      found = spare;
+    }
+  }
+  return found;
+}
+
+HarpString* harp_channels_take(Harp* harp, uint32_t channel, uint32_t key) {
+  HarpString* const own = &harp->strings[key];
+  HarpString* const held = harp_channels_held(harp, channel, key);
+  if (held || !own->holders) {
+    return held ? held : own;
+  }
+  HarpString* const spare = find_spare(harp, key);
+  if (spare) {
+    spare->key = key;
+    spare->semitones = own->semitones;
+  }
+  return spare ? spare : own;
+}
+
+bool harp_channels_follows(const HarpString* string, uint32_t channel) {
+  return string->channel == channel && !string->is_let_go;
+}

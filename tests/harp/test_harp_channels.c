@@ -1,0 +1,300 @@
+/* Who plays which string: channels and spare strings. */
+#include "core/harp/harp_channels.h"
+#include "tests/support/channels.h"
+#include "tests/support/harps.h"
+#include "tests/support/measure.h"
+#include "tests/support/oracle.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+enum { RATE = CHANNELS_RATE, KEY = 57 };
+
+static float left[RATE];
+
+/* The spare string that a key has; there has to be one. */
+static const HarpString* spare_at(const Harp* harp, uint32_t key) {
+  for (uint32_t i = HARP_KEYS; i < HARP_STRINGS; ++i) {
+    const HarpString* const spare = &harp->strings[i];
+    if (spare->voice.is_awake && spare->key == key) {
+      return spare;
+    }
+  }
+  fail();
+  return NULL;
+}
+
+static void two_channels_have_a_string_each_at_one_key(void** state) {
+  (void)state;
+  Harp* const harp = channels_harp();
+  harp_bend(harp, 3, 0.5);
+  harp_note_on(harp, 2, KEY, 100);
+  harp_note_on(harp, 3, KEY, 100);
+  assert_int_equal(harp_report(harp).n_strings, 2);
+  channels_check_pitch(harp, &harp->strings[KEY], 0.0);
+  channels_check_pitch(harp, spare_at(harp, KEY), 0.5);
+  harp_bend(harp, 2, -7.0);
+  channels_check_pitch(harp, &harp->strings[KEY], -7.0);
+  channels_check_pitch(harp, spare_at(harp, KEY), 0.5);
+  harp_free(harp);
+}
+
+static void a_channel_lets_up_its_own_key_only(void** state) {
+  (void)state;
+  Harp* const harp = channels_harp();
+  harp_note_on(harp, 2, KEY, 100);
+  harp_note_on(harp, 3, KEY, 100);
+  harp_note_off(harp, 4, KEY);
+  channels_check_decay(harp, &harp->strings[KEY], channels_open_s(KEY));
+  harp_note_off(harp, 3, KEY);
+  channels_check_decay(harp, &harp->strings[KEY], channels_open_s(KEY));
+  channels_check_decay(harp, spare_at(harp, KEY), CHANNELS_RELEASE_S);
+  harp_all_notes_off(harp, 2);
+  channels_check_decay(harp, &harp->strings[KEY], CHANNELS_RELEASE_S);
+  harp_free(harp);
+}
+
+static void one_channel_has_one_string_at_a_key(void** state) {
+  (void)state;
+  Harp* const harp = channels_harp();
+  harp_note_on(harp, 2, KEY, 100);
+  harp_note_on(harp, 3, KEY, 100);
+  harp_note_on(harp, 2, KEY, 100);
+  harp_note_on(harp, 3, KEY, 100);
+  assert_int_equal(harp_report(harp).n_strings, 2);
+  assert_int_equal(harp->strings[KEY].channel, 2);
+  harp_free(harp);
+}
+
+static void a_guest_that_rings_is_left_alone(void** state) {
+  (void)state;
+  Harp* const harp = channels_harp();
+  for (uint32_t key = KEY; key < KEY + 3; ++key) {
+    harp_pedal(harp, 3, 1.0);
+    harp_note_on(harp, 2, key, 100);
+    harp_note_on(harp, 3, key, 100);
+    harp_note_off(harp, 3, key);
+  }
+  assert_int_equal(harp_report(harp).n_strings, 6);
+  for (uint32_t key = KEY; key < KEY + 3; ++key) {
+    channels_check_pitch(harp, spare_at(harp, key), 0.0);
+  }
+  /* But by the same key it is played again. */
+  harp_note_on(harp, 3, KEY + 1, 100);
+  assert_int_equal(harp_report(harp).n_strings, 6);
+  harp_free(harp);
+}
+
+static void a_key_that_is_up_is_taken_over(void** state) {
+  (void)state;
+  Harp* const harp = channels_harp();
+  harp_pedal(harp, 2, 1.0);
+  harp_bend(harp, 3, 2.0);
+  harp_note_on(harp, 2, KEY, 100);
+  harp_note_off(harp, 2, KEY);
+  harp_note_on(harp, 3, KEY, 100);
+  assert_int_equal(harp_report(harp).n_strings, 1);
+  channels_check_pitch(harp, &harp->strings[KEY], 2.0);
+  harp_note_off(harp, 3, KEY);
+  channels_check_decay(harp, &harp->strings[KEY], CHANNELS_RELEASE_S);
+  harp_free(harp);
+}
+
+/* Sixteen channels at three keys: three strings of their own, and 45 spare ones wanted where 32
+ * are. */
+static void when_spare_strings_run_out_none_is_stolen(void** state) {
+  (void)state;
+  Harp* const harp = channels_harp();
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    for (uint32_t key = KEY; key < KEY + 3; ++key) {
+      harp_note_on(harp, channel, key, 100);
+      harps_run(harp, 64, NULL, NULL);
+    }
+  }
+  assert_int_equal(harp_report(harp).n_strings, 3 + HARP_SPARES);
+  for (uint32_t i = HARP_KEYS; i < HARP_STRINGS; ++i) {
+    assert_true(harp->strings[i].holders);
+  }
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    harp_all_notes_off(harp, channel);
+  }
+  harps_run(harp, RATE, NULL, NULL);
+  harps_run(harp, RATE, NULL, NULL);
+  assert_int_equal(harp_report(harp).n_strings, 0);
+  harp_free(harp);
+}
+
+static uint32_t n_holders(const HarpString* string) {
+  uint32_t n = 0;
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    n += string->holders >> channel & 1;
+  }
+  return n;
+}
+
+/* With no spare string left, the last channels share the string of the key. */
+static void a_shared_string_sounds_until_the_last_lets_go(void** state) {
+  (void)state;
+  Harp* const harp = channels_harp();
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    for (uint32_t key = KEY; key < KEY + 3; ++key) {
+      harp_note_on(harp, channel, key, 100);
+    }
+  }
+  const HarpString* const shared = &harp->strings[KEY];
+  assert_true(n_holders(shared) > 1);
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    const bool is_last = n_holders(shared) == 1 && harp_channels_holds(shared, channel);
+    harp_note_off(harp, channel, KEY);
+    channels_check_decay(harp, shared, is_last ? CHANNELS_RELEASE_S : channels_open_s(KEY));
+    if (is_last) {
+      harp_free(harp);
+      return;
+    }
+  }
+  fail();
+}
+
+/* What two channels play, one of them at a quarter of its loudness, is the sum of both alone. */
+static void a_channel_has_a_gain_of_its_own(void** state) {
+  (void)state;
+  enum { QUIET = 1, LOUD = 4, OTHER_KEY = KEY + 7 };
+  static float alone[2][RATE];
+  for (int is_tied = 0; is_tied < 2; ++is_tied) {
+    HarpPatch patch = channels_patch();
+    patch.resonance = is_tied ? 1e-4 : 0.0;
+    Harp* const harp = harps_new(RATE, &patch);
+    Harp* const first = harps_new(RATE, &patch);
+    Harp* const second = harps_new(RATE, &patch);
+    harp_set_gain(harp, QUIET, 0.25);
+    harps_run(harp, harp->n_gesture, NULL, NULL);
+    harp_note_on(harp, QUIET, KEY, 100);
+    harp_note_on(harp, LOUD, OTHER_KEY, 100);
+    harp_note_on(first, QUIET, KEY, 100);
+    harp_note_on(second, LOUD, OTHER_KEY, 100);
+    harps_run(harp, RATE, left, NULL);
+    harps_run(first, RATE, alone[0], NULL);
+    harps_run(second, RATE, alone[1], NULL);
+    double error = 0.0;
+    for (uint32_t n = 0; n < RATE; ++n) {
+      const double sum = 0.25 * (double)alone[0][n] + (double)alone[1][n];
+      error = fmax(error, fabs((double)left[n] - sum));
+    }
+    assert_within("of full scale", error, 2e-6);
+    assert_true(measure_peak(alone[0], RATE) > 0.05);
+    harp_free(harp);
+    harp_free(first);
+    harp_free(second);
+  }
+}
+
+/* A gain that moves while a note rings goes there in a straight line, at its channel alone. */
+static void a_gain_moves_in_a_straight_line(void** state) {
+  (void)state;
+  static float as_it_is[RATE];
+  Harp* const harp = channels_harp();
+  Harp* const still = channels_harp();
+  harp_note_on(harp, 2, KEY, 100);
+  harp_note_on(still, 2, KEY, 100);
+  harps_run(harp, 1000, NULL, NULL);
+  harps_run(still, 1000, NULL, NULL);
+  harp_set_gain(harp, 2, 0.0);
+  harp_set_gain(harp, 3, 7.0);
+  harps_run(harp, RATE / 4, left, NULL);
+  harps_run(still, RATE / 4, as_it_is, NULL);
+  double error = 0.0;
+  for (uint32_t n = 0; n < RATE / 4; ++n) {
+    const double gain = fmax(0.0, 1.0 - (n + 1.0) / harp->n_gesture);
+    error = fmax(error, fabs((double)left[n] - gain * (double)as_it_is[n]));
+  }
+  assert_within("of full scale", error, 1e-6);
+  harp_free(still);
+  harp_free(harp);
+}
+
+static void a_spare_string_can_have_any_key_in_turn(void** state) {
+  (void)state;
+  Harp* const harp = channels_harp();
+  for (uint32_t key = 30; key < 100; key += 7) {
+    harp_note_on(harp, 2, key, 100);
+    harp_note_on(harp, 3, key, 100);
+    channels_check_pitch(harp, spare_at(harp, key), 0.0);
+    channels_check_decay(harp, spare_at(harp, key), channels_open_s(key));
+    harp_silence(harp);
+    harps_run(harp, RATE / 2, NULL, NULL);
+    assert_int_equal(harp_report(harp).n_strings, 0);
+  }
+  harp_free(harp);
+}
+
+static void what_is_let_go_keeps_its_touch_but_not_its_pedal(void** state) {
+  (void)state;
+  Harp* const harp = channels_harp();
+  const HarpString* const held = &harp->strings[KEY + 5];
+  const HarpString* const string = &harp->strings[KEY];
+  harp_pedal(harp, 2, 1.0);
+  harp_bend(harp, 2, 1.0);
+  harp_note_on(harp, 2, KEY, 100);
+  harp_note_on(harp, 2, KEY + 5, 100);
+  harp_note_off(harp, 2, KEY);
+  harp_bend(harp, 2, 2.0);
+  channels_check_pitch(harp, string, 2.0);
+  harp_let_go(harp, 2);
+  harp_bend(harp, 2, 3.0);
+  channels_check_pitch(harp, string, 2.0);
+  channels_check_pitch(harp, held, 3.0);
+  harp_pedal(harp, 2, 0.0);
+  channels_check_decay(harp, string, CHANNELS_RELEASE_S);
+  harp_note_on(harp, 2, KEY, 100);
+  harp_bend(harp, 2, 4.0);
+  channels_check_pitch(harp, string, 4.0);
+  harp_free(harp);
+}
+
+static void a_reset_harp_knows_no_channel(void** state) {
+  (void)state;
+  Harp* const harp = channels_harp();
+  harp_note_on(harp, 5, KEY, 100);
+  harp_note_on(harp, 6, KEY, 100);
+  harp_bend(harp, 5, 3.0);
+  harp_bend(harp, 0, 3.0);
+  harp_pedal(harp, 0, 1.0);
+  harp_set_gain(harp, 0, 0.1);
+  harp_sostenuto(harp, 5, true);
+  const HarpPatch plain = channels_patch();
+  harps_restart(harp, &plain);
+  Harp* const fresh = channels_harp();
+  static float other[RATE];
+  harp_note_on(harp, 0, KEY, 100);
+  harp_note_on(fresh, 0, KEY, 100);
+  harp_note_off(harp, 0, KEY);
+  harp_note_off(fresh, 0, KEY);
+  harps_run(harp, RATE, left, NULL);
+  harps_run(fresh, RATE, other, NULL);
+  assert_memory_equal(left, other, sizeof(other));
+  harp_free(fresh);
+  harp_free(harp);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(two_channels_have_a_string_each_at_one_key),
+      cmocka_unit_test(a_channel_lets_up_its_own_key_only),
+      cmocka_unit_test(one_channel_has_one_string_at_a_key),
+      cmocka_unit_test(a_guest_that_rings_is_left_alone),
+      cmocka_unit_test(a_key_that_is_up_is_taken_over),
+      cmocka_unit_test(when_spare_strings_run_out_none_is_stolen),
+      cmocka_unit_test(a_shared_string_sounds_until_the_last_lets_go),
+      cmocka_unit_test(a_channel_has_a_gain_of_its_own),
+      cmocka_unit_test(a_gain_moves_in_a_straight_line),
+      cmocka_unit_test(a_spare_string_can_have_any_key_in_turn),
+      cmocka_unit_test(what_is_let_go_keeps_its_touch_but_not_its_pedal),
+      cmocka_unit_test(a_reset_harp_knows_no_channel),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
