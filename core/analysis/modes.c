@@ -7,12 +7,11 @@
 #include "core/analysis/modes_match.h"
 #include "core/analysis/modes_symmetric.h"
 #include "core/base/complex_of.h"
+#include "core/base/maths.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Poles looked for beyond those that are wanted. */
 enum { MORE_FEW = 2 };

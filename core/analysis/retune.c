@@ -5,6 +5,7 @@
 #include "core/analysis/modes_lapack.h"
 #include "core/analysis/modes_symmetric.h"
 #include "core/base/complex_of.h"
+#include "core/base/maths.h"
 
 #include <complex.h>
 #include <float.h>
@@ -12,8 +13,6 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Rounds of inverse iteration: it converges cubically, and a path step that needs more is too long.
  */

@@ -10,9 +10,9 @@ void limiter_init(Limiter* limiter, double rate_hz) {
 }
 
 void limiter_turn(Limiter* limiter, bool is_on, uint32_t n_frames) {
-  const float amount = is_on ? 1.0f : 0.0f;
+  const double amount = is_on ? 1.0 : 0.0;
   if (amount != limiter->amount.goal || n_frames == 0) {
-    ramp_to(&limiter->amount, amount, n_frames);
+    line_to(&limiter->amount, amount, n_frames);
   }
 }
 
@@ -35,7 +35,7 @@ static bool is_low(const float* samples, uint32_t n_frames) {
 /* What is below the knee need not be followed. */
 static bool
 is_idle(const Limiter* limiter, uint32_t n_frames, const float* left, const float* right) {
-  const bool is_off = limiter->amount.goal == 0.0f && limiter->amount.n_left == 0;
+  const bool is_off = limiter->amount.goal == 0.0 && limiter->amount.n_left == 0;
   const bool is_still = limiter->amount.n_left == 0 && limiter->followed <= LIMITER_KNEE;
   return is_off || (is_still && is_low(left, n_frames) && is_low(right, n_frames));
 }
@@ -48,7 +48,7 @@ void limiter_run(Limiter* limiter, uint32_t n_frames, float* left, float* right)
   const double kept = exp(-1.0 / (RELEASE_S * limiter->rate_hz));
   for (uint32_t n = 0; n < n_frames; ++n) {
     const double loudest = fmax(fabs((double)left[n]), fabs((double)right[n]));
-    const double amount = (double)ramp_next(&limiter->amount);
+    const double amount = line_next(&limiter->amount);
     limiter->followed = fmax(loudest, kept * limiter->followed);
     const double gain = 1.0 + amount * (gain_of(limiter->followed) - 1.0);
     left[n] = (float)(gain * (double)left[n]);

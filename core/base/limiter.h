@@ -12,7 +12,7 @@
 #ifndef HOOKE_CORE_BASE_LIMITER_H
 #define HOOKE_CORE_BASE_LIMITER_H
 
-#include "core/base/ramp.h"
+#include "core/base/line.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -24,7 +24,7 @@
 typedef struct {
   double rate_hz;
   double followed; /**< What it follows, ≥ 0 */
-  Ramp amount;     /**< 0: off, 1: on */
+  Line amount;     /**< 0: off, 1: on */
 } Limiter;
 
 /** Off. @param rate_hz  Frames per second [Hz], > 0 */

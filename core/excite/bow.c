@@ -1,11 +1,10 @@
 #include "core/excite/bow.h"
 
+#include "core/base/maths.h"
 #include "core/excite/contact.h"
 
 #include <float.h>
 #include <math.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Friction at rest and where it slips fast, and the speed, of that with which Helmholtz's string
  * slips back, at which it is half way. */
@@ -83,39 +82,19 @@ static void settle(Bow* bow, const Meeting* m) {
   }
 }
 
-static BowGlide still(double value) {
-  return (BowGlide){.now = value, .goal = value};
-}
-
-static void glide_to(BowGlide* glide, double goal, uint32_t n_frames) {
-  if (n_frames == 0) {
-    *glide = still(goal);
-    return;
-  }
-  glide->goal = goal;
-  glide->change = (goal - glide->now) / n_frames;
-  glide->n_left = n_frames;
-}
-
-static void glide_on(BowGlide* glide) {
-  if (glide->n_left > 0) {
-    glide->now = --glide->n_left > 0 ? glide->now + glide->change : glide->goal;
-  }
-}
-
 static void follow(Bow* bow) {
-  glide_on(&bow->strength);
-  glide_on(&bow->drawn);
-  glide_on(&bow->paced);
-  glide_on(&bow->pressed);
-  bow->hair = bow->strength.now * bow->drawn.now;
+  (void)line_next(&bow->strength);
+  (void)line_next(&bow->drawn);
+  (void)line_next(&bow->paced);
+  (void)line_next(&bow->pressed);
+  bow->hair = bow->strength.value * bow->drawn.value;
   bow->is_active = !bow->is_lifted || bow->pressed.n_left > 0;
 }
 
 /* What comes next is seen from where the bow will be. */
 static void move_on(Bow* bow, const Chain* chain) {
   if (bow->place.n_left > 0) {
-    glide_on(&bow->place);
+    (void)line_next(&bow->place);
     bow_look(bow, chain);
   }
 }
@@ -123,9 +102,9 @@ static void move_on(Bow* bow, const Chain* chain) {
 /* What it does is what it did, for a strength of 1, and the roll keeps its energy. */
 static void take_over(Bow* bow, double spring) {
   bow->rolled *= sqrt(bow->spring / spring);
-  bow->drawn.now *= bow->strength.now;
-  bow->paced.now *= bow->strength.now;
-  bow->pressed.now *= bow->strength.now;
+  bow->drawn.value *= bow->strength.value;
+  bow->paced.value *= bow->strength.value;
+  bow->pressed.value *= bow->strength.value;
   bow->is_lifted = false;
 }
 
@@ -155,31 +134,33 @@ void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, doubl
   if (bow->is_active) {
     take_over(bow, spring);
   } else {
-    *bow = (Bow){.place = still(place), .paced = still(speed), .is_active = true};
+    *bow = (Bow){.is_active = true};
+    line_set(&bow->place, place);
+    line_set(&bow->paced, speed);
   }
-  bow->strength = still(1.0);
-  glide_to(&bow->place, place, n_attack);
-  glide_to(&bow->drawn, speed, n_attack);
-  glide_to(&bow->paced, speed, n_attack);
-  glide_to(&bow->pressed, force, frames_of(0.5 * stroke.attack_s, rate_hz));
+  line_set(&bow->strength, 1.0);
+  line_to(&bow->place, place, n_attack);
+  line_to(&bow->drawn, speed, n_attack);
+  line_to(&bow->paced, speed, n_attack);
+  line_to(&bow->pressed, force, frames_of(0.5 * stroke.attack_s, rate_hz));
   bow->n_lift = frames_of(stroke.release_s, rate_hz);
   bow->spring = spring;
   bow_look(bow, chain);
 }
 
 void bow_swell(Bow* bow, double strength, uint32_t n_frames) {
-  glide_to(&bow->strength, fmin(fmax(strength, 0.0), STRONGEST), n_frames);
+  line_to(&bow->strength, fmin(fmax(strength, 0.0), STRONGEST), n_frames);
 }
 
 void bow_lift(Bow* bow) {
   if (!bow->is_lifted) {
     bow->is_lifted = true;
-    glide_to(&bow->pressed, 0.0, bow->n_lift);
+    line_to(&bow->pressed, 0.0, bow->n_lift);
   }
 }
 
 void bow_look(Bow* bow, const Chain* chain) {
-  const Contact contact = contact_at(chain, bow->place.now);
+  const Contact contact = contact_at(chain, bow->place.value);
   bow->before = contact_velocity(chain, &contact);
 }
 
@@ -187,16 +168,16 @@ bool bow_act(Bow* bow, Chain* chain) {
   if (!bow->is_active) {
     return false;
   }
-  const Contact contact = contact_at(chain, bow->place.now);
+  const Contact contact = contact_at(chain, bow->place.value);
   const double impedance = sqrt(chain->now.k1);
-  const double beta = fmin(bow->place.now, 1.0 - bow->place.now);
+  const double beta = fmin(bow->place.value, 1.0 - bow->place.value);
   const double after = contact_velocity(chain, &contact);
   follow(bow);
   const double spring = impedance * bow->spring;
   const double roll = 1.0 / (impedance * ROLL + 0.5 * spring);
   const double yield = 0.5 * contact.square + roll;
-  const double force = bow->strength.now * bow->pressed.now * impedance;
-  const double pace = bow->strength.now * bow->paced.now;
+  const double force = bow->strength.value * bow->pressed.value * impedance;
+  const double pace = bow->strength.value * bow->paced.value;
   const Meeting m = {
       .free = 0.5 * (after + bow->before) - bow->hair - roll * spring * bow->rolled,
       .yield = yield,

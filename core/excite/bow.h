@@ -33,6 +33,7 @@
 #ifndef HOOKE_CORE_EXCITE_BOW_H
 #define HOOKE_CORE_EXCITE_BOW_H
 
+#include "core/base/line.h"
 #include "core/string/chain.h"
 
 #include <stdbool.h>
@@ -50,28 +51,20 @@ typedef struct {
 /** What the hair does to the string just now. */
 typedef enum { BOW_STICKS, BOW_SLIPS_BACK, BOW_SLIPS_AHEAD } BowState;
 
-/** A value of the bow that goes to its goal in a straight line. */
-typedef struct {
-  double now;
-  double goal;
-  double change;   /**< Per step */
-  uint32_t n_left; /**< Steps until it is there */
-} BowGlide;
-
 /** A bow at work; zero is none. */
 typedef struct {
-  BowGlide place;
-  BowGlide strength; /**< Of what is drawn, paced and pressed, see bow_swell() */
-  BowGlide drawn;    /**< b, per step, for a strength of 1 */
-  BowGlide paced;    /**< Where b ends, by which v0 is measured */
-  BowGlide pressed;  /**< F, of √k1 */
-  double spring;     /**< s, of √k1 */
-  double before;     /**< eᵀu before the step */
-  double rolled;     /**< q */
-  double hair;       /**< b of the last step */
-  double slip;       /**< v of the last step */
-  double friction;   /**< f of the last step, in h²/m */
-  uint32_t n_lift;   /**< Steps that it takes to lift it */
+  Line place;
+  Line strength;   /**< Of what is drawn, paced and pressed, see bow_swell() */
+  Line drawn;      /**< b, per step, for a strength of 1 */
+  Line paced;      /**< Where b ends, by which v0 is measured */
+  Line pressed;    /**< F, of √k1 */
+  double spring;   /**< s, of √k1 */
+  double before;   /**< eᵀu before the step */
+  double rolled;   /**< q */
+  double hair;     /**< b of the last step */
+  double slip;     /**< v of the last step */
+  double friction; /**< f of the last step, in h²/m */
+  uint32_t n_lift; /**< Steps that it takes to lift it */
   BowState state;
   bool is_lifted;
   bool is_active;

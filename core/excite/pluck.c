@@ -1,8 +1,8 @@
 #include "core/excite/pluck.h"
 
-#include <math.h>
+#include "core/base/maths.h"
 
-static const double PI = 3.14159265358979323846;
+#include <math.h>
 
 /* Half the width of the softest finger and of the hardest pick, as fractions of the length. */
 static const double SOFTEST = 0.3;

@@ -1,11 +1,10 @@
 #include "core/excite/rehearsal.h"
 
+#include "core/base/maths.h"
 #include "core/string/tuning.h"
 
 #include <math.h>
 #include <stdbool.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* The most masses that are rehearsed with, steps that a period then has, periods that are watched,
  * and tries: after two, 999 of 1000 strikes are as loud as they are to be within 0.05 dB. */

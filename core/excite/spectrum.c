@@ -1,10 +1,9 @@
 #include "core/excite/spectrum.h"
 
+#include "core/base/maths.h"
 #include "core/excite/bow.h"
 
 #include <math.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* The finger of pluck_add(): half its width, and the least [masses]. */
 static const double SOFTEST = 0.3;

@@ -1,6 +1,7 @@
 #include "core/guitar/guitar.h"
 
 #include "core/base/aligned.h"
+#include "core/base/maths.h"
 #include "core/guitar/guitar_mixer.h"
 #include "core/guitar/guitar_string.h"
 
@@ -32,10 +33,6 @@ struct Guitar {
   GuitarMixer mixer;
 };
 
-static double clamp(double value, double low, double high) {
-  return fmin(fmax(value, low), high);
-}
-
 /* In frames, no shorter than a gesture. */
 static uint32_t frames_of(const Guitar* guitar, double time_s) {
   const double frames = round(time_s * guitar->rate_hz);
@@ -65,7 +62,7 @@ static void set_palm(Guitar* guitar) {
 
 static void follow_all(Guitar* guitar, uint32_t n_frames) {
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
-    guitar_string_follow(&guitar->strings[w], &guitar->patch, n_frames);
+    guitar_string_follow(&guitar->strings[w], n_frames);
   }
 }
 
@@ -90,8 +87,8 @@ Guitar* guitar_new(double rate_hz) {
   memset(guitar->memory, 0, 2 * GUITAR_VOICES * size);
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     char* const memory = (char*)guitar->memory + 2 * w * size;
-    guitar_string_init(&guitar->strings[w], rate_hz, w, memory);
-    guitar_string_init(&guitar->rests[w], rate_hz, w, memory + size);
+    guitar_string_init(&guitar->strings[w], &guitar->patch, rate_hz, w, memory);
+    guitar_string_init(&guitar->rests[w], &guitar->patch, rate_hz, w, memory + size);
   }
   return guitar;
 }
@@ -127,7 +124,7 @@ void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frame
     string_of(guitar, s, 0)->open = patch->open[s];
     string_of(guitar, s, 1)->open = patch->open[s] + beside(patch, s);
     for (int side = 0; !has(guitar, s) && side < 2; ++side) {
-      guitar_string_damp(string_of(guitar, s, side), &guitar->patch, GUITAR_CHOKED, 0);
+      guitar_string_damp(string_of(guitar, s, side), GUITAR_CHOKED, 0);
     }
   }
   follow_all(guitar, n_glide);
@@ -142,13 +139,13 @@ void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
     const double share = side ? guitar->patch.course : 1.0;
     if (share > 0.0 || s->voice.is_awake) {
       const Pluck own = {
-          .place = guitar_string_place(s, patch, place),
+          .place = guitar_string_place(s, place),
           .hardness =
               isnan(pluck.hardness) ? clamp(patch->hardness + harder, 0.0, 1.0) : pluck.hardness,
           .amplitude = GUITAR_NOTE_PEAK * share * pluck.force,
       };
-      guitar_string_leave(s, rest_of(guitar, s), &guitar->patch);
-      guitar_string_pluck(s, &guitar->patch, own);
+      guitar_string_leave(s, rest_of(guitar, s));
+      guitar_string_pluck(s, own);
     }
   }
 }
@@ -161,50 +158,47 @@ void guitar_hammer(Guitar* guitar, uint32_t string, double fret, double force) {
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
     GuitarString* const s = string_of(guitar, string, side);
     const double share = side ? guitar->patch.course : 1.0;
-    const double frets = s->motion.fret.goal - fret;
-    guitar_string_slide(s, &guitar->patch, fret, guitar->n_gesture);
+    const double frets = guitar_string_fretted(s) - fret;
+    guitar_string_slide(s, fret, guitar->n_gesture);
     if (share > 0.0 || s->voice.is_awake) {
       const Pluck own = {
           .place = fmin(exp2(-fmax(frets, 0.0) / 12.0), GUITAR_FARTHEST),
           .hardness = HAMMER_HARDNESS,
           .amplitude = GUITAR_NOTE_PEAK * HAMMER_GAIN * share * force,
       };
-      guitar_string_pluck(s, &guitar->patch, own);
+      guitar_string_pluck(s, own);
     }
   }
 }
 
 void guitar_slide(Guitar* guitar, uint32_t string, double fret, double time_s) {
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
-    guitar_string_slide(string_of(guitar, string, side), &guitar->patch, fret,
-                        frames_of(guitar, time_s));
+    guitar_string_slide(string_of(guitar, string, side), fret, frames_of(guitar, time_s));
   }
 }
 
 void guitar_bend(Guitar* guitar, uint32_t string, double semitones, double time_s) {
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
-    guitar_string_bend(string_of(guitar, string, side), &guitar->patch, semitones,
-                       frames_of(guitar, time_s));
+    guitar_string_bend(string_of(guitar, string, side), semitones, frames_of(guitar, time_s));
   }
 }
 
 void guitar_vibrato(Guitar* guitar, uint32_t string, double depth, double rate_hz) {
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
-    guitar_string_vibrato(string_of(guitar, string, side), &guitar->patch, depth,
-                          rate_hz / guitar->rate_hz);
+    guitar_string_vibrato(string_of(guitar, string, side), depth, rate_hz / guitar->rate_hz);
   }
 }
 
 void guitar_damp(Guitar* guitar, uint32_t string, double time_s) {
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
-    guitar_string_damp(string_of(guitar, string, side), &guitar->patch, GUITAR_DAMPED,
+    guitar_string_damp(string_of(guitar, string, side), GUITAR_DAMPED,
                        isinf(time_s) ? 0 : frames_of(guitar, time_s));
   }
 }
 
 void guitar_let_ring(Guitar* guitar, uint32_t string) {
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
-    guitar_string_damp(string_of(guitar, string, side), &guitar->patch, GUITAR_RINGING, 0);
+    guitar_string_damp(string_of(guitar, string, side), GUITAR_RINGING, 0);
   }
 }
 
@@ -222,7 +216,7 @@ void guitar_palm(Guitar* guitar, double weight) {
 
 void guitar_choke(Guitar* guitar) {
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
-    guitar_string_damp(&guitar->strings[w], &guitar->patch, GUITAR_CHOKED, 0);
+    guitar_string_damp(&guitar->strings[w], GUITAR_CHOKED, 0);
     guitar_string_untouch(&guitar->strings[w]);
   }
 }
@@ -233,7 +227,7 @@ bool guitar_is_awake(const Guitar* guitar, uint32_t string) {
 }
 
 double guitar_fretted(const Guitar* guitar, uint32_t string) {
-  return has(guitar, string) ? guitar->strings[string].motion.fret.goal : 0.0;
+  return has(guitar, string) ? guitar_string_fretted(&guitar->strings[string]) : 0.0;
 }
 
 GuitarReport guitar_report(const Guitar* guitar) {
@@ -250,6 +244,5 @@ GuitarReport guitar_report(const Guitar* guitar) {
 }
 
 void guitar_run(Guitar* guitar, uint32_t n_frames, float* left, float* right) {
-  guitar_mixer_run(&guitar->mixer, guitar->strings, guitar->rests, &guitar->patch, n_frames, left,
-                   right);
+  guitar_mixer_run(&guitar->mixer, guitar->strings, guitar->rests, n_frames, left, right);
 }

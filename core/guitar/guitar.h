@@ -23,7 +23,6 @@
 #define HOOKE_CORE_GUITAR_GUITAR_H
 
 #include "core/guitar/guitar_patch.h"
-#include "core/guitar/guitar_reading.h"
 
 #include <stdbool.h>
 #include <stdint.h>

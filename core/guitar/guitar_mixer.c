@@ -12,55 +12,51 @@ static double place_of(const GuitarPatch* patch, uint32_t string) {
 
 /* As loud in any place. */
 void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_frames) {
-  ramp_to(&mixer->level, (float)patch->level, n_frames);
+  line_to(&mixer->level, patch->level, n_frames);
   for (int p = 0; p < GUITAR_PICKUPS; ++p) {
-    ramp_to(&mixer->gains[p], (float)patch->pickups[p].gain, n_frames);
+    line_to(&mixer->gains[p], patch->pickups[p].gain, n_frames);
   }
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     const double place = place_of(patch, w % GUITAR_STRINGS);
-    ramp_to(&mixer->pans[w][0], (float)sqrt(1.0 - place), n_frames);
-    ramp_to(&mixer->pans[w][1], (float)sqrt(1.0 + place), n_frames);
+    line_to(&mixer->pans[w][0], sqrt(1.0 - place), n_frames);
+    line_to(&mixer->pans[w][1], sqrt(1.0 + place), n_frames);
   }
 }
 
-static void ramp_gains(GuitarMixer* mixer, uint32_t n_frames) {
+static void fill_gains(GuitarMixer* mixer, uint32_t n_frames) {
   for (int p = 0; p < GUITAR_PICKUPS; ++p) {
-    Ramp* const ramp = &mixer->gains[p];
-    mixer->now.is_read[p] = ramp->value != 0.0f || ramp->n_left > 0;
-    ramp_fill(ramp, n_frames, mixer->now.gain[p]);
+    Line* const gain = &mixer->gains[p];
+    mixer->now.is_read[p] = gain->value != 0.0 || gain->n_left > 0;
+    line_fill(gain, n_frames, mixer->now.gain[p]);
   }
 }
 
-static void add(Ramp* gain, const float* from, uint32_t n_frames, float* to) {
+static void add(Line* gain, const float* from, uint32_t n_frames, float* to) {
   if (gain->n_left > 0) {
     for (uint32_t n = 0; n < n_frames; ++n) {
-      to[n] += ramp_next(gain) * from[n];
+      to[n] += (float)line_next(gain) * from[n];
     }
   } else {
-    const float still = gain->value;
+    const float still = (float)gain->value;
     for (uint32_t n = 0; n < n_frames; ++n) {
       to[n] += still * from[n];
     }
   }
 }
 
-static void run_string(GuitarMixer* mixer,
-                       GuitarString* string,
-                       GuitarString* rest,
-                       Ramp pans[2],
-                       const GuitarPatch* patch,
-                       uint32_t n_frames) {
+static void run_string(
+    GuitarMixer* mixer, GuitarString* string, GuitarString* rest, Line pans[2], uint32_t n_frames) {
   const bool is_heard = string->voice.is_awake || rest->voice.is_awake;
   if (is_heard) {
     memset(mixer->own, 0, n_frames * sizeof(float));
   }
-  guitar_string_run(string, patch, &mixer->now, n_frames, mixer->own);
-  guitar_string_run(rest, patch, &mixer->now, n_frames, mixer->own);
+  guitar_string_run(string, &mixer->now, n_frames, mixer->own);
+  guitar_string_run(rest, &mixer->now, n_frames, mixer->own);
   for (int side = 0; side < 2; ++side) {
     if (is_heard) {
       add(&pans[side], mixer->own, n_frames, mixer->sides[side]);
     } else {
-      ramp_skip(&pans[side], n_frames);
+      line_fill(&pans[side], n_frames, mixer->own);
     }
   }
 }
@@ -69,17 +65,16 @@ static void run_string(GuitarMixer* mixer,
 static void run_some(GuitarMixer* mixer,
                      GuitarString* strings,
                      GuitarString* rests,
-                     const GuitarPatch* patch,
                      uint32_t n_frames,
                      float* left,
                      float* right) {
   memset(mixer->sides[0], 0, n_frames * sizeof(float));
   memset(mixer->sides[1], 0, n_frames * sizeof(float));
-  ramp_gains(mixer, n_frames);
+  fill_gains(mixer, n_frames);
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
-    run_string(mixer, &strings[w], &rests[w], mixer->pans[w], patch, n_frames);
+    run_string(mixer, &strings[w], &rests[w], mixer->pans[w], n_frames);
   }
-  ramp_fill(&mixer->level, n_frames, mixer->own);
+  line_fill(&mixer->level, n_frames, mixer->own);
   for (uint32_t n = 0; n < n_frames; ++n) {
     left[n] = mixer->own[n] * mixer->sides[0][n];
     right[n] = mixer->own[n] * mixer->sides[1][n];
@@ -89,14 +84,13 @@ static void run_some(GuitarMixer* mixer,
 void guitar_mixer_run(GuitarMixer* mixer,
                       GuitarString* strings,
                       GuitarString* rests,
-                      const GuitarPatch* patch,
                       uint32_t n_frames,
                       float* left,
                       float* right) {
   for (uint32_t done = 0; done < n_frames;) {
     const uint32_t rest = n_frames - done;
     const uint32_t n = rest < GUITAR_MIX_FRAMES ? rest : GUITAR_MIX_FRAMES;
-    run_some(mixer, strings, rests, patch, n, left + done, right + done);
+    run_some(mixer, strings, rests, n, left + done, right + done);
     done += n;
   }
 }

@@ -7,9 +7,8 @@
 #ifndef HOOKE_CORE_GUITAR_GUITAR_MIXER_H
 #define HOOKE_CORE_GUITAR_GUITAR_MIXER_H
 
-#include "core/base/ramp.h"
+#include "core/base/line.h"
 #include "core/guitar/guitar_patch.h"
-#include "core/guitar/guitar_reading.h"
 #include "core/guitar/guitar_string.h"
 
 #include <stdint.h>
@@ -18,9 +17,9 @@ enum { GUITAR_VOICES = 2 * GUITAR_STRINGS /**< The strings, and then those besid
 
 /** Zero is silent. */
 typedef struct {
-  Ramp level;
-  Ramp gains[GUITAR_PICKUPS];
-  Ramp pans[GUITAR_VOICES][2]; /**< Left and right */
+  Line level;
+  Line gains[GUITAR_PICKUPS];
+  Line pans[GUITAR_VOICES][2]; /**< Left and right */
   GuitarGains now;             /**< Of the frames that are run */
   float own[GUITAR_MIX_FRAMES];
   float sides[2][GUITAR_MIX_FRAMES];
@@ -34,7 +33,6 @@ void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_f
 void guitar_mixer_run(GuitarMixer* mixer,
                       GuitarString* strings,
                       GuitarString* rests,
-                      const GuitarPatch* patch,
                       uint32_t n_frames,
                       float* left,
                       float* right);

@@ -6,10 +6,7 @@
 #ifndef HOOKE_CORE_GUITAR_GUITAR_STRING_H
 #define HOOKE_CORE_GUITAR_GUITAR_STRING_H
 
-#include "core/base/ramp.h"
-#include "core/guitar/guitar_motion.h"
 #include "core/guitar/guitar_patch.h"
-#include "core/guitar/guitar_reading.h"
 #include "core/voice/voice.h"
 
 #include <stdbool.h>
@@ -24,6 +21,14 @@
  * finger that stops the string is near. */
 #define GUITAR_FARTHEST 0.9
 
+enum { GUITAR_MIX_FRAMES = 256 /**< Frames that are mixed at a time */ };
+
+/** Gains of the pickups over at most GUITAR_MIX_FRAMES frames. */
+typedef struct {
+  bool is_read[GUITAR_PICKUPS]; /**< false: its gain is 0 in all of them */
+  float gain[GUITAR_PICKUPS][GUITAR_MIX_FRAMES];
+} GuitarGains;
+
 /** What damps a string. */
 typedef enum {
   GUITAR_RINGING, /**< Nothing but the palm */
@@ -33,26 +38,20 @@ typedef enum {
 
 /** Zero is one that is asleep and has no memory. */
 typedef struct {
-  Voice voice;
-  GuitarMotion motion; /**< As it will be at the end of its piece, while it is moving */
-  GuitarMotion begun;  /**< As it was at the beginning of it */
-  GuitarReading reading;
+  Voice voice;              /**< It slides to the fret where it is stopped, from the capo */
+  const GuitarPatch* patch; /**< The guitar's */
+  Pickups pickups;
   GuitarDamper damper;
-  double open;            /**< MIDI note of the open string */
-  uint32_t n_gesture;     /**< Frames that a gesture takes */
-  uint32_t n_fade;        /**< Frames that the next fade of the pickups takes */
-  uint32_t n_open;        /**< Masses of the open string that it was strung as */
-  uint32_t n_piece;       /**< Frames of its piece; 0: it is in none */
-  uint32_t n_until_piece; /**< Frames until the next piece of its motion, while it is moving */
-  uint32_t n_damped;      /**< Frames until what damps it lifts; 0: it does not lift by itself */
-  uint32_t n_touched;     /**< Frames until the touch is over */
-  double touched;         /**< Where, as a fraction of its sounding length */
-  Ramp touch;             /**< How far the finger has come */
-  bool is_moving;         /**< Whether its coefficients are on their way, or have just arrived */
+  double open;       /**< MIDI note of the open string */
+  uint32_t n_fade;   /**< Frames that the next fade of the pickups takes */
+  uint32_t n_open;   /**< Masses of the open string that it was strung as */
+  uint32_t n_damped; /**< Frames until what damps it lifts; 0: it does not lift by itself */
 } GuitarString;
 
-/** Lay a string at rest over `memory`, chain_size(GUITAR_MAX_MASSES) bytes. */
-void guitar_string_init(GuitarString* string, double rate_hz, uint32_t phase, void* memory);
+/** Lay a string at rest over `memory`, chain_size(GUITAR_MAX_MASSES) bytes.
+ * @param patch  The caller's */
+void guitar_string_init(
+    GuitarString* string, const GuitarPatch* patch, double rate_hz, uint32_t phase, void* memory);
 
 /** Silence it at once; open, unbent, untouched. */
 void guitar_string_reset(GuitarString* string);
@@ -62,28 +61,22 @@ void guitar_string_reset(GuitarString* string);
 uint32_t guitar_string_masses(uint32_t n_open, double frets);
 
 /** A place on the open string, as a fraction of what sounds, at most GUITAR_FARTHEST. */
-double guitar_string_place(const GuitarString* string, const GuitarPatch* patch, double place);
+double guitar_string_place(const GuitarString* string, double place);
+
+/** The fret where it is stopped, or is being slid to. */
+double guitar_string_fretted(const GuitarString* string);
 
 /** Bring what rings to the patch in `n_glide` frames, and no faster than by a gesture. */
-void guitar_string_follow(GuitarString* string, const GuitarPatch* patch, uint32_t n_glide);
+void guitar_string_follow(GuitarString* string, uint32_t n_glide);
 
 /** Go to a fret in `n_frames`; a string that is asleep is there at once if that is a gesture. */
-void guitar_string_slide(GuitarString* string,
-                         const GuitarPatch* patch,
-                         double fret,
-                         uint32_t n_frames);
+void guitar_string_slide(GuitarString* string, double fret, uint32_t n_frames);
 
 /** Bend in `n_frames`. */
-void guitar_string_bend(GuitarString* string,
-                        const GuitarPatch* patch,
-                        double semitones,
-                        uint32_t n_frames);
+void guitar_string_bend(GuitarString* string, double semitones, uint32_t n_frames);
 
 /** Swing about the pitch: `depth` [semitones], `rate` [cycles per frame]. */
-void guitar_string_vibrato(GuitarString* string,
-                           const GuitarPatch* patch,
-                           double depth,
-                           double rate);
+void guitar_string_vibrato(GuitarString* string, double depth, double rate);
 
 /**
    Before it is plucked again: leave its motion to `rest`, where a plectrum that stops a string
@@ -92,17 +85,14 @@ void guitar_string_vibrato(GuitarString* string,
 
    @param rest  Of the same kind, used for nothing else
 */
-void guitar_string_leave(GuitarString* string, GuitarString* rest, const GuitarPatch* patch);
+void guitar_string_leave(GuitarString* string, GuitarString* rest);
 
 /** Pluck it, whatever damps it; `pluck.place` is a fraction of the sounding length. */
-void guitar_string_pluck(GuitarString* string, const GuitarPatch* patch, Pluck pluck);
+void guitar_string_pluck(GuitarString* string, Pluck pluck);
 
 /** Let it be damped for `n_frames`; 0: until it is plucked, or damped otherwise.  What is choked
  * stays so until it is plucked or rings by order. */
-void guitar_string_damp(GuitarString* string,
-                        const GuitarPatch* patch,
-                        GuitarDamper damper,
-                        uint32_t n_frames);
+void guitar_string_damp(GuitarString* string, GuitarDamper damper, uint32_t n_frames);
 
 /** Touch it for `n_frames`; `place` is a fraction of the sounding length. */
 void guitar_string_touch(GuitarString* string, double place, uint32_t n_frames);
@@ -112,7 +102,6 @@ void guitar_string_untouch(GuitarString* string);
 
 /** Add `n_frames`, at most GUITAR_MIX_FRAMES, of what the pickups read to `out`. */
 void guitar_string_run(GuitarString* string,
-                       const GuitarPatch* patch,
                        const GuitarGains* gains,
                        uint32_t n_frames,
                        float* out);

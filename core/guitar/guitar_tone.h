@@ -12,13 +12,13 @@
 double guitar_tone_frets(const GuitarPatch* patch, double fret);
 
 /** Of the open string, with no hand on it. */
-TuningTarget guitar_tone_open(const GuitarString* string, const GuitarPatch* patch);
+TuningTarget guitar_tone_open(const GuitarString* string);
 
 /**
    Of the string as it is.  The damping is that of the note that is fretted, damping ·
    2^(tracking (note − 69)/12); a palm adds GUITAR_PALM_PER_S palm², and a finger that damps leaves
    no more than the release.
 */
-TuningTarget guitar_tone(const GuitarString* string, const GuitarPatch* patch);
+VoiceAim guitar_tone(const GuitarString* string);
 
 #endif

@@ -1,6 +1,7 @@
 #include "core/harp/harp.h"
 
 #include "core/base/aligned.h"
+#include "core/base/maths.h"
 #include "core/harp/harp_channels.h"
 #include "core/harp/harp_mixer.h"
 
@@ -19,10 +20,6 @@ static const double BRIGHTNESS_HARDNESS = 0.4;
 static const double SOFT_HARDNESS = -0.2;
 static const double SOFT_GAIN = 0.6;
 
-static double clamp(double value, double low, double high) {
-  return fmin(fmax(value, low), high);
-}
-
 /* How far what holds its damper lifts it. */
 static double lift_of(const Harp* harp, const HarpString* string) {
   return string->holders || string->is_caught ? 1.0 : harp->channels[string->channel].lift;
@@ -30,7 +27,7 @@ static double lift_of(const Harp* harp, const HarpString* string) {
 
 static void retune(Harp* harp, HarpString* string, uint32_t n_glide) {
   string->lift = lift_of(harp, string);
-  harp_string_retune(string, &harp->patch, n_glide);
+  harp_string_retune(string, n_glide);
 }
 
 static void retune_all(Harp* harp, uint32_t n_glide) {
@@ -58,7 +55,7 @@ static void set_touch(Harp* harp, uint32_t channel, double* what, double value) 
 }
 
 static void set_level(Harp* harp, uint32_t n_frames) {
-  ramp_to(&harp->level, (float)harp->patch.level, n_frames);
+  line_to(&harp->level, harp->patch.level, n_frames);
 }
 
 /* A scale may give any key any pitch, so all strings have the same memory. */
@@ -66,9 +63,8 @@ static void lay_out(Harp* harp, char* memory) {
   const size_t size = chain_size(CHAIN_MAX_MASSES);
   memset(memory, 0, HARP_STRINGS * size);
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    harp_string_init(&harp->strings[i], harp->rate_hz, i % HARP_KEYS, memory + i * size,
-                     CHAIN_MAX_MASSES);
-    harp->strings[i].bridge = &harp->bridge.bridge;
+    harp_string_init(&harp->strings[i], &harp->patch, harp->rate_hz, i % HARP_KEYS,
+                     memory + i * size, CHAIN_MAX_MASSES, &harp->bridge.bridge);
   }
 }
 
@@ -121,7 +117,7 @@ void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames) {
   harp->n_fade = n_glide;
   set_level(harp, n_glide);
   if (n_glide == 0) {
-    harp_pickups_set(&harp->pickups, harp_mixer_places(patch));
+    harp_mixer_place_pickups(harp);
   }
   if (!is_same) {
     retune_all(harp, n_glide);
@@ -167,8 +163,7 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   string->leaned_on = 0.0;
   string->touch = harp->channels[channel].touch;
   harp->is_bowed = harp->patch.exciter == EXCITER_BOW || (harp->is_bowed && !is_still(harp));
-  harp_string_play(string, &harp->patch, pluck_of(harp, &harp->channels[channel], velocity),
-                   harp->n_gesture);
+  harp_string_play(string, pluck_of(harp, &harp->channels[channel], velocity), harp->n_gesture);
 }
 
 /* The channel lets go of the key; the last one to do so lifts it. */
@@ -180,7 +175,7 @@ static void raise_key(Harp* harp, HarpString* string, uint32_t channel) {
   }
   string->leaned_on = 0.0;
   harp_string_lift(string);
-  if (was_leaned_on || string->lift != lift_of(harp, string) || tie_is_on(&string->tie)) {
+  if (was_leaned_on || string->lift != lift_of(harp, string) || tie_is_on(&string->voice.tie)) {
     retune(harp, string, harp->n_gesture);
   }
 }
@@ -260,7 +255,7 @@ void harp_breathe(Harp* harp, uint32_t channel, double breath) {
 }
 
 void harp_set_gain(Harp* harp, uint32_t channel, double gain) {
-  ramp_to(&harp->channels[channel].gain, (float)gain, harp->n_gesture);
+  line_to(&harp->channels[channel].gain, gain, harp->n_gesture);
 }
 
 void harp_all_notes_off(Harp* harp, uint32_t channel) {
@@ -280,7 +275,7 @@ void harp_all_sound_off(Harp* harp, uint32_t channel) {
     if (string->channel == channel) {
       string->is_caught = false;
       string->lift = 0.0;
-      harp_string_choke(string, &harp->patch, harp->n_gesture);
+      harp_string_choke(string, harp->n_gesture);
     }
   }
 }

@@ -14,10 +14,9 @@
 #ifndef HOOKE_CORE_HARP_HARP_H
 #define HOOKE_CORE_HARP_HARP_H
 
-#include "core/base/ramp.h"
+#include "core/base/line.h"
 #include "core/harp/harp_bridge.h"
 #include "core/harp/harp_patch.h"
-#include "core/harp/harp_pickups.h"
 #include "core/harp/harp_string.h"
 
 #include <stdbool.h>
@@ -38,7 +37,7 @@ enum {
 /** A channel that plays, and the pedals under it. */
 typedef struct {
   HarpTouch touch;
-  Ramp gain;         /**< Of all that it has played */
+  Line gain;         /**< Of all that it has played */
   double lift;       /**< Of the dampers of keys that are up: 0 to 1 */
   double softness;   /**< Of the soft pedal, 0 to 1 */
   bool is_sostenuto; /**< The sostenuto pedal is down */
@@ -58,8 +57,8 @@ typedef struct Harp {
   uint32_t n_gesture; /**< Frames that a player's gesture takes to act */
   HarpPatch patch;
   HarpChannel channels[HARP_CHANNELS];
-  Ramp level;
-  HarpPickups pickups;
+  Line level;
+  Pickups pickups;
   uint32_t n_fade;                  /**< Frames that the next fade will take */
   HarpString strings[HARP_STRINGS]; /**< Of every key, and then of spares */
   void* memory;                     /**< Memory of all strings; owned */
@@ -69,7 +68,7 @@ typedef struct Harp {
   HarpBridge bridge;
   bool is_bowed;                /**< Whether a note has been bowed since all was still */
   double rest[2];               /**< What stands still on each side, once one has */
-  HarpReading reading;          /**< How they were read last */
+  Reading reading;              /**< How they were read last */
   float before[CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is differentiated */
   float mix[HARP_BUSES][CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;

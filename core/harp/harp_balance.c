@@ -1,12 +1,10 @@
 #include "core/harp/harp_balance.h"
 
+#include "core/base/maths.h"
 #include "core/excite/spectrum.h"
-#include "core/harp/harp_pickups.h"
 #include "core/string/pickup.h"
 
 #include <math.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Power, of the amplitude's square: that of the patch as the panel has it at first, key 60. */
 static const double POWER = 0.5;
@@ -178,15 +176,16 @@ static Spectrum spectrum_for(const HarpPatch* patch, const HarpBalance* string, 
 static void
 set_taps(Scene* scene, Turns* turns, const HarpPatch* patch, const HarpBalance* string) {
   const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
-  HarpPickups pickups = {0};
-  harp_pickups_set(&pickups, (HarpPlaces){patch->pickup_type, patch->pickup, patch->spread});
-  const HarpReading reading = harp_pickups_reading(&pickups);
-  scene->n_sides = reading.n_sides;
-  scene->both = reading.n_sides == 1 ? 2.0 : 1.0;
-  for (uint32_t side = 0; side < reading.n_sides; ++side) {
-    const HarpEar* const ear = &reading.ears[side];
-    const ChainTap tap = pickup_tap_of_type(ear->pickup_type, string->n_masses, ear->place,
-                                            2.0 * PI * f0_hz / string->target.rate_hz, ear->is_far);
+  Pickup places[PICKUPS];
+  harp_patch_pickups(patch, places);
+  const bool is_one = pickups_are_same(&places[0], &places[1]);
+  scene->n_sides = is_one ? 1 : PICKUPS;
+  scene->both = is_one ? 2.0 : 1.0;
+  for (uint32_t side = 0; side < scene->n_sides; ++side) {
+    const Pickup* const pickup = &places[side];
+    const ChainTap tap =
+        pickup_tap_of_type(pickup->type, string->n_masses, pickup->place,
+                           2.0 * PI * f0_hz / string->target.rate_hz, pickup->is_far);
     for (uint32_t i = 2 * side; i < 2 * side + 2; ++i) {
       turns->angle[TAPPED + i] = turns->angle[STRING] * (tap.mass[i % 2] + 1.0);
       scene->weights[i] = (double)tap.weight[i % 2];

@@ -1,5 +1,6 @@
 #include "core/harp/harp_bridge.h"
 
+#include "core/base/maths.h"
 #include "core/harp/harp.h"
 #include "core/string/chain_numbers.h"
 
@@ -18,10 +19,6 @@ static const double LEVEL_KEPT = 0.97;
 /* How far a damper must be lifted for its string to wake. */
 static const double LIFTED = 0.5;
 
-static uint32_t least(uint32_t a, uint32_t b) {
-  return a < b ? a : b;
-}
-
 void harp_bridge_init(HarpBridge* bridge, double rate_hz) {
   *bridge = (HarpBridge){.bridge = bridge_at(rate_hz), .n_until_look = HARP_BRIDGE_FRAMES};
 }
@@ -36,10 +33,10 @@ static void rest(HarpBridge* bridge) {
   bridge->next_key = 0;
 }
 
-static void read_tie(HarpBridgeEnd* end, const BridgeTie* tie) {
-  end->give = tie->weight * tie->pull;
-  end->pull = tie->pull;
-  end->spring = tie->spring;
+static void read_tie(HarpBridgeEnd* end, const Tie* tie) {
+  end->give = tie->weight * tie->pull.value;
+  end->pull = tie->pull.value;
+  end->spring = tie->spring.value;
 }
 
 static HarpBridgeEnd end_of(const Chain* chain, const Tie* tie) {
@@ -50,7 +47,7 @@ static HarpBridgeEnd end_of(const Chain* chain, const Tie* tie) {
       .d = is_double ? (double*)chain->cells + offset : NULL,
       .to_u = chain->loops->n_lanes,
   };
-  read_tie(&end, &tie->now);
+  read_tie(&end, tie);
   return end;
 }
 
@@ -74,11 +71,11 @@ static void prepare(Harp* harp, uint32_t n_taps) {
   bridge->is_gliding = false;
   bridge->spring = 0.0;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
-    const Tie* const tie = &harp->awake[i]->tie;
+    const Tie* const tie = &harp->awake[i]->voice.tie;
     add_work(bridge, i, &harp->parts[i], harp->buses[i], n_taps);
     bridge->ends[i] = end_of(harp->parts[i].chain, tie);
-    bridge->is_gliding = bridge->is_gliding || tie->n_gliding > 0;
-    bridge->spring += tie->now.spring;
+    bridge->is_gliding = bridge->is_gliding || tie_stretch(tie) > 0;
+    bridge->spring += tie->spring.value;
   }
 }
 
@@ -86,10 +83,10 @@ static void glide(Harp* harp) {
   HarpBridge* const bridge = &harp->bridge;
   bridge->spring = 0.0;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
-    Tie* const tie = &harp->awake[i]->tie;
+    Tie* const tie = &harp->awake[i]->voice.tie;
     tie_advance(tie);
-    read_tie(&bridge->ends[i], &tie->now);
-    bridge->spring += tie->now.spring;
+    read_tie(&bridge->ends[i], tie);
+    bridge->spring += tie->spring.value;
   }
 }
 
@@ -124,9 +121,10 @@ static void pull(HarpBridge* bridge) {
 static bool act(Harp* harp) {
   bool is_new = false;
   for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
-    if (harp_string_is_touched(harp->awake[i])) {
+    if (harp->bridge.is_touched[i]) {
       chain_pass(harp->parts[i].chain, 1);
-      is_new = harp_string_act(harp->awake[i]) || is_new;
+      is_new = voice_pass(&harp->awake[i]->voice, 1) || is_new;
+      voice_catch_up(&harp->awake[i]->voice);
     }
   }
   return is_new;
@@ -151,12 +149,13 @@ static void run_frame(Harp* harp, uint32_t n, uint32_t n_taps) {
   bridge->level = fmax(bridge->level, fabs(bridge->bridge.y));
 }
 
-static void pass_strings(Harp* harp, uint32_t n_frames) {
+static void pass_untouched(Harp* harp, uint32_t n_frames) {
   for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
-    if (!harp->awake[i]->has_acted) {
+    if (!harp->bridge.is_touched[i]) {
       chain_pass(harp->parts[i].chain, n_frames);
+      voice_pass(&harp->awake[i]->voice, n_frames);
+      voice_catch_up(&harp->awake[i]->voice);
     }
-    harp_string_pass(harp->awake[i], &harp->patch, n_frames);
   }
 }
 
@@ -173,22 +172,23 @@ uint32_t harp_bridge_stretch(const Harp* harp, uint32_t n_frames) {
     n_frames = least(n_frames, bridge->n_until_look);
   }
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
-    const HarpString* const string = harp->awake[i];
-    const uint32_t n_gliding = string->tie.n_gliding;
-    n_frames = least(n_frames, harp_string_stretch(string));
+    const Voice* const voice = &harp->awake[i]->voice;
+    const uint32_t n_gliding = tie_stretch(&voice->tie);
+    n_frames = least(n_frames, voice_due(voice));
     n_frames = n_gliding > 0 ? least(n_frames, n_gliding) : n_frames;
   }
   return n_frames;
 }
 
 uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps) {
-  const HarpBridge* const bridge = &harp->bridge;
+  HarpBridge* const bridge = &harp->bridge;
   if (bridge->n_tied == 0) {
     return n_frames;
   }
   bool is_touched = false;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
-    is_touched = is_touched || harp_string_is_touched(harp->awake[i]);
+    bridge->is_touched[i] = voice_is_touched(&harp->awake[i]->voice);
+    is_touched = is_touched || bridge->is_touched[i];
   }
   prepare(harp, n_taps);
   uint32_t n = 0;
@@ -196,7 +196,7 @@ uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps) {
     run_frame(harp, n, n_taps);
     is_over = is_touched && act(harp);
   }
-  pass_strings(harp, n);
+  pass_untouched(harp, n);
   return n;
 }
 
@@ -204,14 +204,13 @@ uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps) {
 static void lend(Harp* harp) {
   double sum = 0.0;
   for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
-    const double given = harp->awake[i]->voice.given;
-    sum += harp->awake[i]->tie.hold.mass * given * given;
+    const Voice* const voice = &harp->awake[i]->voice;
+    sum += voice->tie.hold.mass * voice->given * voice->given;
   }
   for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
     Voice* const voice = &harp->awake[i]->voice;
-    const double mass = harp->awake[i]->tie.hold.mass;
-    if (mass > 0.0) {
-      voice->lent = fmax(voice->lent, sqrt(sum / mass));
+    if (voice->tie.hold.mass > 0.0) {
+      voice_lend(voice, sqrt(sum / voice->tie.hold.mass));
     }
   }
 }
@@ -224,9 +223,8 @@ static void keep(Harp* harp) {
   }
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
     Voice* const voice = &harp->awake[i]->voice;
-    const bool is_open = harp->awake[i]->tie.hold.lever > 0.0;
-    voice->loudest = fmax(voice->loudest, bridge->loudest);
-    voice->is_kept = is_open && bridge->level > RESTING * bridge->loudest;
+    const bool is_open = voice->tie.hold.lever > 0.0;
+    voice_keep(voice, is_open && bridge->level > RESTING * bridge->loudest, bridge->loudest);
   }
 }
 
@@ -245,7 +243,7 @@ static void wake(Harp* harp) {
     }
     bridge->next_key = (bridge->next_key + 1) % N_KEYS;
     if (is_waiting(string)) {
-      harp_string_wake(string, &harp->patch, harp->n_gesture);
+      harp_string_wake(string, harp->n_gesture);
       ++n_woken;
     }
   }
@@ -273,8 +271,9 @@ double harp_bridge_headroom(const Harp* harp) {
   bool is_tied = false;
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     const HarpString* const string = &harp->strings[i];
-    if (string->voice.is_awake && tie_is_on(&string->tie)) {
-      load += fmax(string->tie.now.load, string->tie.goal.load);
+    const Tie* const tie = &string->voice.tie;
+    if (string->voice.is_awake && tie_is_on(tie)) {
+      load += fmax(tie->load.value, tie->load.goal);
       is_tied = true;
     }
   }

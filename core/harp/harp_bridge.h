@@ -55,7 +55,8 @@ typedef struct {
   double loudest;        /**< Of the strings that are tied, since there are any */
   double level;          /**< How far the bridge moves of late */
   bool is_gliding;       /**< Whether a tie is */
-  double spring;         /**< Σ s while none is */
+  bool is_touched[HARP_BRIDGE_STRINGS]; /**< Those that something acts on after every frame */
+  double spring;                        /**< Σ s while none is */
   uint32_t n_batches;
   HarpBridgeBatch batches[HARP_BRIDGE_STRINGS];
   ChainWork works[HARP_BRIDGE_STRINGS];

@@ -3,7 +3,7 @@
 void harp_channels_reset(HarpChannel channels[HARP_CHANNELS]) {
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     channels[channel] = (HarpChannel){.touch = HARP_TOUCH_NONE};
-    ramp_init(&channels[channel].gain, 1.0f);
+    line_set(&channels[channel].gain, 1.0);
   }
 }
 

@@ -1,11 +1,10 @@
 #include "core/harp/harp_mixer.h"
 
+#include "core/base/maths.h"
 #include "core/string/pickup.h"
 
 #include <math.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Below which what is heard of a bow is taken for standing still [Hz]. */
 static const double REST_HZ = 5.0;
@@ -14,8 +13,18 @@ static const double REST_HZ = 5.0;
 static const double SILENT_REST_HZ = 100.0;
 static const double LEAST_REST = 1e-7;
 
-HarpPlaces harp_mixer_places(const HarpPatch* patch) {
-  return (HarpPlaces){patch->pickup_type, patch->pickup, patch->spread};
+void harp_mixer_place_pickups(Harp* harp) {
+  Pickup places[PICKUPS];
+  harp_patch_pickups(&harp->patch, places);
+  pickups_set(&harp->pickups, places);
+}
+
+/* What is to be read until the pickups change: one, where left and right are one. */
+static Reading reading_of(const Pickups* pickups) {
+  const bool is_fading = pickups_stretch(pickups) < UINT32_MAX;
+  const bool is_stereo = !pickups_are_same(&pickups->heard[0], &pickups->heard[1]) ||
+                         (is_fading && !pickups_are_same(&pickups->fading[0], &pickups->fading[1]));
+  return pickups_reading(pickups, (const bool[PICKUPS]){true, is_stereo});
 }
 
 /* Velocities are weighed as if a key were in its usual tune: weights must not move while it rings.
@@ -25,39 +34,30 @@ static double angle_of(const Harp* harp, const HarpString* string) {
   return 2.0 * PI * f0_hz / harp->rate_hz;
 }
 
-static ChainTap tap_of(const Harp* harp, const HarpString* string, const HarpEar* ear) {
-  const uint32_t n_masses = string->voice.chain.n_masses;
-  if (ear->pickup_type == PICKUP_DISPLACEMENT) {
-    return pickup_tap(n_masses, ear->place);
-  }
-  return pickup_tap_of_type(ear->pickup_type, n_masses, ear->place, angle_of(harp, string),
-                            ear->is_far);
-}
-
-static void add_part(Harp* harp, uint32_t i, HarpString* string, const HarpReading* reading) {
+static void add_part(Harp* harp, uint32_t i, HarpString* string, const Reading* reading) {
   ChainPart* const part = &harp->parts[i];
+  const double angle1 = angle_of(harp, string);
   part->chain = &string->voice.chain;
   for (uint32_t t = 0; t < reading->n_taps; ++t) {
-    part->taps[t] = tap_of(harp, string, &reading->ears[t]);
+    part->taps[t] = voice_tap(&string->voice, &reading->at[t], angle1);
   }
   harp->awake[i] = string;
 }
 
 /* Channels whose gain is 1, and stays there, are heard as they are: as if there were no gains. */
 static uint8_t bus_of(const Harp* harp, uint32_t channel) {
-  const Ramp* const gain = &harp->channels[channel].gain;
-  return gain->value == 1.0f && gain->n_left == 0 ? 0 : (uint8_t)(1 + channel);
+  const Line* const gain = &harp->channels[channel].gain;
+  return gain->value == 1.0 && gain->n_left == 0 ? 0 : (uint8_t)(1 + channel);
 }
 
 /* Those of the strings awake that are tied to the bridge, or those that are not, of one bus. */
 static uint32_t
-gather_bus(Harp* harp, uint32_t n_parts, bool are_tied, uint8_t bus, const HarpReading* reading) {
+gather_bus(Harp* harp, uint32_t n_parts, bool are_tied, uint8_t bus, const Reading* reading) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (string->voice.is_awake && tie_is_on(&string->tie) == are_tied &&
+    if (string->voice.is_awake && tie_is_on(&string->voice.tie) == are_tied &&
         bus_of(harp, string->channel) == bus) {
-      chain_share(&string->voice.chain, are_tied);
-      string->voice.is_kept = string->voice.is_kept && are_tied;
+      voice_share(&string->voice, are_tied);
       harp->buses[n_parts] = bus;
       add_part(harp, n_parts++, string, reading);
     }
@@ -66,8 +66,7 @@ gather_bus(Harp* harp, uint32_t n_parts, bool are_tied, uint8_t bus, const HarpR
 }
 
 /* Of all buses, one after the other. */
-static uint32_t
-gather_some(Harp* harp, uint32_t n_parts, bool are_tied, const HarpReading* reading) {
+static uint32_t gather_some(Harp* harp, uint32_t n_parts, bool are_tied, const Reading* reading) {
   n_parts = gather_bus(harp, n_parts, are_tied, 0, reading);
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     const uint8_t bus = bus_of(harp, channel);
@@ -77,7 +76,7 @@ gather_some(Harp* harp, uint32_t n_parts, bool are_tied, const HarpReading* read
 }
 
 /* The strings awake, and where they are read. */
-static uint32_t gather(Harp* harp, const HarpReading* reading) {
+static uint32_t gather(Harp* harp, const Reading* reading) {
   const uint32_t n_tied = gather_some(harp, 0, true, reading);
   harp_bridge_gather(harp, n_tied);
   return gather_some(harp, n_tied, false, reading);
@@ -89,16 +88,24 @@ static float read_now(const Harp* harp, uint32_t n_parts, uint32_t t) {
   for (uint32_t i = 0; i < n_parts; ++i) {
     const ChainPart* const part = &harp->parts[i];
     const ChainTap* const tap = &part->taps[t];
-    const float gain = harp->channels[harp->awake[i]->channel].gain.value;
+    const float gain = (float)harp->channels[harp->awake[i]->channel].gain.value;
     sum += gain * (tap->weight[0] * chain_position(part->chain, tap->mass[0]) +
                    tap->weight[1] * chain_position(part->chain, tap->mass[1]));
   }
   return sum;
 }
 
+static bool are_same(const Reading* a, const Reading* b) {
+  bool are_same = a->n_taps == b->n_taps;
+  for (uint32_t t = 0; are_same && t < a->n_taps; ++t) {
+    are_same = pickups_are_same(&a->at[t], &b->at[t]);
+  }
+  return are_same;
+}
+
 /* Who begins to read velocities must know where the strings were. */
-static void take_reading(Harp* harp, const HarpReading* reading, uint32_t n_parts) {
-  if (!harp_pickups_are_same(reading, &harp->reading)) {
+static void take_reading(Harp* harp, const Reading* reading, uint32_t n_parts) {
+  if (!are_same(reading, &harp->reading)) {
     harp->reading = *reading;
     for (uint32_t t = 0; t < reading->n_taps; ++t) {
       harp->before[t] = read_now(harp, n_parts, t);
@@ -106,21 +113,27 @@ static void take_reading(Harp* harp, const HarpReading* reading, uint32_t n_part
   }
 }
 
+/* Where the taps of a bus go, from a frame on. */
+static void outputs_of(Harp* harp, uint32_t bus, uint32_t from, uint32_t n_taps, float** out) {
+  for (uint32_t t = 0; t < n_taps; ++t) {
+    out[t] = harp->mix[bus][t] + from;
+  }
+}
+
 /* Fade from the old pickups, and set the level. */
 static void
-mix_down(Harp* harp, const HarpReading* reading, uint32_t n_frames, float* left, float* right) {
-  const uint32_t n_sides = reading->n_sides;
+mix_down(Harp* harp, const Reading* reading, uint32_t n_frames, float* left, float* right) {
   float* const sides[2] = {left, right};
+  float* mix[CHAIN_MAX_TAPS];
+  outputs_of(harp, 0, 0, reading->n_taps, mix);
+  pickups_cross(&harp->pickups, reading, n_frames, mix);
   for (uint32_t n = 0; n < n_frames; ++n) {
-    const float level = ramp_next(&harp->level);
-    const float fade = ramp_next(&harp->pickups.fade);
-    for (uint32_t s = 0; s < n_sides; ++s) {
-      const float now = harp->mix[0][s][n];
-      const float old = reading->is_fading ? harp->mix[0][n_sides + s][n] : now;
-      sides[s][n] = level * (old + fade * (now - old));
+    const float level = (float)line_next(&harp->level);
+    for (uint32_t s = 0; s < reading->n_heard; ++s) {
+      sides[s][n] = level * mix[s][n];
     }
   }
-  if (n_sides == 1) {
+  if (reading->n_heard == 1) {
     memcpy(right, left, n_frames * sizeof(float));
   }
 }
@@ -150,15 +163,10 @@ static void take_out_rest(Harp* harp, uint32_t n_frames, float* left, float* rig
   }
 }
 
-static uint32_t least(uint32_t a, uint32_t b) {
-  return a < b ? a : b;
-}
-
 /* Frames that can be run in one go: pickups and gains may not change within them but by their own
  * ramps. */
 static uint32_t stretch(const Harp* harp, uint32_t n_frames) {
-  uint32_t n = least(n_frames, HARP_MIX_FRAMES);
-  n = harp->pickups.fade.n_left > 0 ? least(n, harp->pickups.fade.n_left) : n;
+  uint32_t n = least(least(n_frames, HARP_MIX_FRAMES), pickups_stretch(&harp->pickups));
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     const uint32_t n_left = harp->channels[channel].gain.n_left;
     n = n_left > 0 ? least(n, n_left) : n;
@@ -166,34 +174,13 @@ static uint32_t stretch(const Harp* harp, uint32_t n_frames) {
   return n;
 }
 
-static uint32_t stretch_of(const HarpString* string) {
-  return harp_string_is_touched(string) ? 1 : harp_string_stretch(string);
-}
-
-/* Where the taps of a bus go, from a frame on. */
-static void outputs_of(Harp* harp, uint32_t bus, uint32_t from, uint32_t n_taps, float** out) {
-  for (uint32_t t = 0; t < n_taps; ++t) {
-    out[t] = harp->mix[bus][t] + from;
-  }
-}
-
 /* Run a string that something happens to on the way. */
-static void run_in_pieces(Harp* harp, uint32_t i, uint32_t n_frames, uint32_t n_taps) {
+static void run_alone(Harp* harp, uint32_t i, uint32_t n_frames) {
   HarpString* const string = harp->awake[i];
-  for (uint32_t done = 0; done < n_frames && string->voice.is_awake;) {
-    const uint32_t n = least(n_frames - done, stretch_of(string));
-    const uint32_t n_masses = string->voice.chain.n_masses;
-    float* out[CHAIN_MAX_TAPS];
-    outputs_of(harp, harp->buses[i], done, n_taps, out);
-    chain_run_all(&harp->parts[i], 1, n, n_taps, out);
-    harp_string_act(string);
-    harp_string_pass(string, &harp->patch, n);
-    /* A swing may have taken some of its masses, and with them the places where it is read. */
-    if (string->voice.chain.n_masses != n_masses) {
-      add_part(harp, i, string, &harp->reading);
-    }
-    done += n;
-  }
+  float* out[CHAIN_MAX_TAPS];
+  outputs_of(harp, harp->buses[i], 0, harp->reading.n_taps, out);
+  voice_run(&string->voice, &harp->reading, angle_of(harp, string), n_frames, out);
+  voice_catch_up(&string->voice);
 }
 
 /* Run strings of one bus to which nothing happens side by side. */
@@ -205,7 +192,8 @@ run_together(Harp* harp, uint32_t first, uint32_t end, uint32_t n_frames, uint32
     chain_run_all(&harp->parts[first], end - first, n_frames, n_taps, out);
   }
   for (uint32_t i = first; i < end; ++i) {
-    harp_string_pass(harp->awake[i], &harp->patch, n_frames);
+    voice_pass(&harp->awake[i]->voice, n_frames);
+    voice_catch_up(&harp->awake[i]->voice);
   }
 }
 
@@ -214,13 +202,13 @@ static void run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_
   uint32_t first = harp->bridge.n_tied;
   for (uint32_t i = first; i < n_parts; ++i) {
     const bool is_new_bus = harp->buses[i] != harp->buses[first];
-    const bool is_apart = stretch_of(harp->awake[i]) <= n_frames;
+    const bool is_apart = voice_stretch(&harp->awake[i]->voice) <= n_frames;
     if (is_new_bus || is_apart) {
       run_together(harp, first, i, n_frames, n_taps);
       first = i;
     }
     if (is_apart) {
-      run_in_pieces(harp, i, n_frames, n_taps);
+      run_alone(harp, i, n_frames);
       first = i + 1;
     }
   }
@@ -240,9 +228,9 @@ static void clear_buses(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_
 }
 
 static void add_bus(Harp* harp, uint32_t channel, uint32_t n_frames, uint32_t n_taps) {
-  Ramp* const gain = &harp->channels[channel].gain;
-  for (uint32_t n = 0; n < n_frames; ++n) {
-    const float now = ramp_next(gain);
+  Line* const gain = &harp->channels[channel].gain;
+  for (uint32_t n = 0; n < n_frames && (n_taps > 0 || gain->n_left > 0); ++n) {
+    const float now = (float)line_next(gain);
     for (uint32_t t = 0; t < n_taps; ++t) {
       harp->mix[0][t][n] += now * harp->mix[1 + channel][t][n];
     }
@@ -257,17 +245,13 @@ static void add_buses(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t 
     is_heard[harp->buses[i]] = true;
   }
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
-    if (is_heard[1 + channel]) {
-      add_bus(harp, channel, n_frames, n_taps);
-    } else {
-      ramp_skip(&harp->channels[channel].gain, n_frames);
-    }
+    add_bus(harp, channel, n_frames, is_heard[1 + channel] ? n_taps : 0);
   }
 }
 
 /* Run as many of `n_frames` as can be run in one go; how many they were. */
 static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* right) {
-  const HarpReading reading = harp_pickups_reading(&harp->pickups);
+  const Reading reading = reading_of(&harp->pickups);
   const uint32_t n_parts = gather(harp, &reading);
   const uint32_t n_most = harp_bridge_stretch(harp, stretch(harp, n_frames));
   clear_buses(harp, n_parts, n_most, reading.n_taps);
@@ -277,7 +261,7 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
   add_buses(harp, n_parts, n, reading.n_taps);
   harp_bridge_pass(harp, n);
   for (uint32_t t = 0; t < reading.n_taps; ++t) {
-    if (reading.ears[t].pickup_type == PICKUP_VELOCITY) {
+    if (reading.at[t].type == PICKUP_VELOCITY) {
       pickup_differentiate(harp->mix[0][t], n, &harp->before[t]);
     }
   }
@@ -288,7 +272,9 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
 
 void harp_run(Harp* harp, uint32_t n_frames, float* left, float* right) {
   for (uint32_t done = 0; done < n_frames;) {
-    harp_pickups_move(&harp->pickups, harp_mixer_places(&harp->patch), harp->n_fade);
+    Pickup places[PICKUPS];
+    harp_patch_pickups(&harp->patch, places);
+    pickups_move(&harp->pickups, places, harp->n_fade);
     done += run_stretch(harp, n_frames - done, left + done, right + done);
   }
 }

@@ -9,7 +9,7 @@
 
 #include "core/harp/harp.h"
 
-/** Where a patch has strings read. */
-HarpPlaces harp_mixer_places(const HarpPatch* patch);
+/** Read at the places of the patch at once. */
+void harp_mixer_place_pickups(Harp* harp);
 
 #endif

@@ -3,7 +3,7 @@
 #define HOOKE_CORE_HARP_HARP_PATCH_H
 
 #include "core/excite/exciter.h"
-#include "core/string/pickup.h"
+#include "core/voice/pickups.h"
 #include "core/voice/string_patch.h"
 
 /** Every value must be in its range and a number: who fills a patch in clamps it. */
@@ -21,5 +21,9 @@ typedef struct {
   double resonance; /**< How much the bridge that all strings share moves, 0 to 1 */
   double vibrato_hz; /**< How fast a vibrato is [Hz], > 0 */
 } HarpPatch;
+
+/** Where the patch hears strings on the left and on the right: alike where it has no spread.  A
+ * place beyond an end folds back, so that a wide pair near a wall has no silent side. */
+void harp_patch_pickups(const HarpPatch* patch, Pickup places[PICKUPS]);
 
 #endif

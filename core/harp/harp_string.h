@@ -7,12 +7,7 @@
 #ifndef HOOKE_CORE_HARP_HARP_STRING_H
 #define HOOKE_CORE_HARP_HARP_STRING_H
 
-#include "core/excite/bow.h"
-#include "core/excite/hammer.h"
 #include "core/harp/harp_patch.h"
-#include "core/voice/intonation.h"
-#include "core/voice/tie.h"
-#include "core/voice/vibrato.h"
 #include "core/voice/voice.h"
 
 #include <stdbool.h>
@@ -33,19 +28,11 @@ typedef struct {
 /** Zero is a string that is asleep and has no memory. */
 typedef struct {
   Voice voice;
-  uint32_t key;      /**< MIDI note number */
-  double semitones;  /**< Its pitch above A4 [semitones]; NAN: it has none, and is silent */
-  uint32_t n_strung; /**< Masses that it was strung with; a bend may have left it fewer */
-  double lift;       /**< Of its damper: 0, it lies on the string, to 1, it does not touch it */
-  HarpTouch touch;   /**< Set it before harp_string_play() or harp_string_retune() */
-  Vibrato vibrato;
-  uint32_t n_swing;     /**< Frames until the vibrato's next piece */
-  Hammer hammer;        /**< What strikes it now */
-  Bow bow;              /**< What is drawn across it now */
-  Intonation ear;       /**< What listens while it is bowed */
-  bool has_acted;       /**< One of them has, since harp_string_pass() was told */
-  const Bridge* bridge; /**< What the patch's resonance ties it to; NULL: nothing */
-  Tie tie;              /**< How */
+  const HarpPatch* patch; /**< The harp's */
+  uint32_t key;           /**< MIDI note number */
+  double semitones;       /**< Its pitch above A4 [semitones]; NAN: it has none, and is silent */
+  double lift;     /**< Of its damper: 0, it lies on the string, to 1, it does not touch it */
+  HarpTouch touch; /**< Set it before harp_string_play() or harp_string_retune() */
 
   /* Who plays it; the harp's */
   uint32_t holders; /**< The channels that hold its key down, a bit each */
@@ -56,12 +43,22 @@ typedef struct {
 } HarpString;
 
 /** The pitch of a string [Hz], bent as its channel bends it but for the vibrato. */
-double harp_string_pitch_hz(const HarpString* string, const HarpPatch* patch);
+double harp_string_pitch_hz(const HarpString* string);
 
-/** Lay a string at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT; it
- * has the pitch of its key in equal temperament, and never more masses than `capacity`. */
-void harp_string_init(
-    HarpString* string, double rate_hz, uint32_t key, void* memory, uint32_t capacity);
+/**
+   Lay a string at rest over `memory`, chain_size(capacity) bytes, aligned to CHAIN_ALIGNMENT; it
+   has the pitch of its key in equal temperament, and never more masses than `capacity`.
+
+   @param patch   What it is played with and strung as, the caller's
+   @param bridge  What the patch's resonance ties it to; NULL: nothing
+*/
+void harp_string_init(HarpString* string,
+                      const HarpPatch* patch,
+                      double rate_hz,
+                      uint32_t key,
+                      void* memory,
+                      uint32_t capacity,
+                      const Bridge* bridge);
 
 /** Silence it at once, with nothing at it and nobody playing it. */
 void harp_string_rest(HarpString* string);
@@ -75,36 +72,20 @@ void harp_string_rest(HarpString* string);
    @param pluck  As loud as a strike or a bow is to be; its hardness is the hammer's, or the bow's
    pressure
 */
-void harp_string_play(HarpString* string, const HarpPatch* patch, Pluck pluck, uint32_t n_glide);
+void harp_string_play(HarpString* string, Pluck pluck, uint32_t n_glide);
 
 /** Lift the bow, if there is one. */
 void harp_string_lift(HarpString* string);
 
-/**
-   Bring a ringing string to the patch, its touch and its damper's `lift` in `n_glide` frames, see
-   voice_retune().  One that is choked, or asleep, is left alone; a pitch that cannot be had at all
-   chokes it.
-*/
-void harp_string_retune(HarpString* string, const HarpPatch* patch, uint32_t n_glide);
+/** Bring a ringing string to the patch, its touch and its damper's `lift` in `n_glide` frames, see
+ * voice_aim().  One that is choked, or asleep, is left alone. */
+void harp_string_retune(HarpString* string, uint32_t n_glide);
 
-/** Lay a hand on it: it is gone in a moment. */
-void harp_string_choke(HarpString* string, const HarpPatch* patch, uint32_t n_glide);
+/** Choke it: it is gone in a moment. */
+void harp_string_choke(HarpString* string, uint32_t n_glide);
 
 /** Wake it, at rest, for the bridge to move; it is tied in `n_glide` frames.  False if it cannot
  * sound. */
-bool harp_string_wake(HarpString* string, const HarpPatch* patch, uint32_t n_glide);
-
-/** Whether a hammer or a bow is at it, which asks for harp_string_act() after every frame. */
-bool harp_string_is_touched(const HarpString* string);
-
-/** Let the hammer, the bow and the ear act; true if they have just left, or moved the string's
- * coefficients, and harp_string_pass() is to be told. */
-bool harp_string_act(HarpString* string);
-
-/** Frames that it can be run before harp_string_pass() must be told. */
-uint32_t harp_string_stretch(const HarpString* string);
-
-/** After `n_frames`, at most its stretch: let the vibrato act, and see voice_pass(). */
-void harp_string_pass(HarpString* string, const HarpPatch* patch, uint32_t n_frames);
+bool harp_string_wake(HarpString* string, uint32_t n_glide);
 
 #endif

@@ -9,30 +9,31 @@ static const double DARKEST_LOSS = 0.75;
 static const double LEAST_DARK_LOSS = 1e-5;
 
 /* What is between the masses when the channel makes the string brighter, or darker. */
-static double loss_of(const HarpString* string, const HarpPatch* patch) {
+static double loss_of(const HarpString* string) {
+  const double loss = string->patch->string.loss;
   const double brightness = string->touch.brightness;
   if (brightness >= 0.0) {
-    return patch->string.loss * pow(BRIGHTEST_LOSS, brightness);
+    return loss * pow(BRIGHTEST_LOSS, brightness);
   }
-  return pow(fmax(patch->string.loss, LEAST_DARK_LOSS), 1.0 + DARKEST_LOSS * brightness);
+  return pow(fmax(loss, LEAST_DARK_LOSS), 1.0 + DARKEST_LOSS * brightness);
 }
 
-TuningTarget harp_target(const HarpString* string, const HarpPatch* patch, double f0_hz) {
-  const double semitones = (double)string->key - 69.0;
-  TuningTarget open = string_patch_target(&patch->string, string->voice.rate_hz, semitones, f0_hz);
-  open.loss = loss_of(string, patch);
-  const double open_s = open.tone.tau_s;
-  if (string->voice.is_choked) {
-    return tuning_damped(open, fmin(open_s, VOICE_CHOKE_S), 0.0);
-  }
-  const double shut_s = fmin(open_s, patch->string.release_s);
-  const double tau_s = shut_s * pow(open_s / shut_s, string->lift);
-  return string->lift < 1.0 ? tuning_damped(open, fmin(open_s, tau_s), 0.0) : open;
+static double damper_of(const HarpString* string, double open_s) {
+  const double shut_s = fmin(open_s, string->patch->string.release_s);
+  return string->lift < 1.0 ? shut_s * pow(open_s / shut_s, string->lift) : 0.0;
 }
 
-BridgeHold harp_target_hold(const HarpString* string, const HarpPatch* patch) {
+static BridgeHold hold_of(const HarpString* string) {
+  const double resonance = string->patch->resonance;
   const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
-  const bool is_tied = string->bridge && !string->voice.is_choked && patch->resonance > 0.0;
-  return (BridgeHold){is_tied ? bridge_mass(f0_hz) : 0.0,
-                      is_tied ? patch->resonance * patch->resonance * string->lift : 0.0};
+  return resonance > 0.0 ? (BridgeHold){bridge_mass(f0_hz), resonance * resonance * string->lift}
+                         : (BridgeHold){0};
+}
+
+VoiceAim harp_target(const HarpString* string, double f0_hz) {
+  const double semitones = (double)string->key - 69.0;
+  TuningTarget open =
+      string_patch_target(&string->patch->string, string->voice.rate_hz, semitones, f0_hz);
+  open.loss = loss_of(string);
+  return (VoiceAim){open, damper_of(string, open.tone.tau_s), hold_of(string)};
 }

@@ -9,14 +9,12 @@
 
 #include "core/harp/harp_string.h"
 
-/** What a string is to be at a pitch.  What a damper adds acts from outside; one that is lifted in
- * part takes its string by the same share of the way on a scale of octaves of τ. */
-TuningTarget harp_target(const HarpString* string, const HarpPatch* patch, double f0_hz);
-
 /**
-   How the bridge is to hold it.  The lever is the square of the resonance, so that half of it
-   leaves the pitch of what is heard, and a damper takes it as it takes the string's motion.
+   What a string is to be at a pitch.  Its damper, lifted in part, takes its string by the same
+   share of the way on a scale of octaves of τ.  The lever is the square of the resonance, so that
+   half of it leaves the pitch of what is heard, and a damper takes it as it takes the string's
+   motion.
 */
-BridgeHold harp_target_hold(const HarpString* string, const HarpPatch* patch);
+VoiceAim harp_target(const HarpString* string, double f0_hz);
 
 #endif

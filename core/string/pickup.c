@@ -1,8 +1,8 @@
 #include "core/string/pickup.h"
 
-#include <math.h>
+#include "core/base/maths.h"
 
-static const double PI = 3.14159265358979323846;
+#include <math.h>
 
 /* What is bright is louder at the same fundamental: these bring a pluck as the panel has it at
  * first back to the loudness of its displacement. */

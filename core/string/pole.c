@@ -1,8 +1,8 @@
 #include "core/string/pole.h"
 
-#include <math.h>
+#include "core/base/maths.h"
 
-static const double PI = 3.14159265358979323846;
+#include <math.h>
 
 /* b² − 4c of the characteristic polynomial (23), negative for a conjugate pair. */
 static double discriminant(Pole pole) {

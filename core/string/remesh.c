@@ -1,8 +1,8 @@
 #include "core/string/remesh.h"
 
-#include <math.h>
+#include "core/base/maths.h"
 
-static const double PI = 3.14159265358979323846;
+#include <math.h>
 
 /* What a string is doing. */
 typedef struct {

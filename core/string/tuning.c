@@ -1,9 +1,9 @@
 #include "core/string/tuning.h"
 
+#include "core/base/maths.h"
+
 #include <math.h>
 #include <stdbool.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Halvings that take an interval below the precision of the float coefficients. */
 enum { FIT_HALVINGS = 40 };

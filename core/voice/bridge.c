@@ -1,13 +1,12 @@
 #include "core/voice/bridge.h"
 
 #include "core/base/complex_of.h"
+#include "core/base/maths.h"
 
 #include <complex.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
-
-static const double PI = 3.14159265358979323846;
 
 static const double BRIDGE_HZ = 60.0;
 static const double BRIDGE_ZETA = 0.5;

@@ -1,9 +1,9 @@
 #include "core/voice/intonation.h"
 
+#include "core/base/maths.h"
+
 #include <math.h>
 #include <stdbool.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* The shortest sum [s], and the fewest frames: a string must have the time to follow. */
 static const double LEAST_S = 0.004;
@@ -36,22 +36,19 @@ static void forget(Intonation* ear) {
 
 static void listen_for(Intonation* ear, uint32_t n_frames) {
   const double angle = 2.0 * PI * ear->target.tone.f0_hz / ear->target.rate_hz;
-  ear->turned[0] = cos(angle);
-  ear->turned[1] = -sin(angle);
-  ear->n_turning = n_frames;
-  for (int i = 0; i < 2; ++i) {
-    ear->change[i] = n_frames > 0 ? (ear->turned[i] - ear->turn[i]) / n_frames : 0.0;
-    ear->turn[i] = n_frames > 0 ? ear->turn[i] : ear->turned[i];
-  }
+  line_to(&ear->turn[0], cos(angle), n_frames);
+  line_to(&ear->turn[1], -sin(angle), n_frames);
 }
 
-static void move(const Intonation* ear, Chain* chain, uint32_t n_glide) {
+static bool move(const Intonation* ear, Chain* chain, uint32_t n_glide) {
   TuningTarget target = ear->target;
   StringCoefs coefs = {0};
   target.tone.f0_hz *= exp2(ear->cents / 1200.0);
-  if (!tuning_fit(&target, chain->n_masses, &coefs)) {
-    chain_glide(chain, coefs, n_glide);
+  if (tuning_fit(&target, chain->n_masses, &coefs)) {
+    return false;
   }
+  chain_glide(chain, coefs, n_glide);
+  return true;
 }
 
 void intonation_start(Intonation* ear, const TuningTarget* target) {
@@ -85,15 +82,14 @@ static double error_of(const Intonation* ear, double n_frames) {
 }
 
 /* Tune against what was heard. */
-static void follow(Intonation* ear, Chain* chain, double n_frames) {
+static bool follow(Intonation* ear, Chain* chain, double n_frames) {
   const double error = error_of(ear, n_frames);
-  if (fabs(error) > IN_TUNE) {
-    const double change = fmin(fmax(-SHARE * error, -MOST_CHANGE), MOST_CHANGE);
-    ear->cents = fmin(fmax(ear->cents + change, -INTONATION_MOST_CENTS), INTONATION_MOST_CENTS);
-    if (ear->n_turning == 0) {
-      move(ear, chain, ear->n_heard);
-    }
+  if (!(fabs(error) > IN_TUNE)) {
+    return false;
   }
+  const double change = clamp(-SHARE * error, -MOST_CHANGE, MOST_CHANGE);
+  ear->cents = clamp(ear->cents + change, -INTONATION_MOST_CENTS, INTONATION_MOST_CENTS);
+  return ear->turn[0].n_left == 0 && move(ear, chain, ear->n_heard);
 }
 
 static void add(Intonation* ear, double speed) {
@@ -101,16 +97,9 @@ static void add(Intonation* ear, double speed) {
   const double y = ear->now[1];
   ear->sum[0] += x * speed;
   ear->sum[1] += y * speed;
-  ear->now[0] = x * ear->turn[0] - y * ear->turn[1];
-  ear->now[1] = x * ear->turn[1] + y * ear->turn[0];
+  ear->now[0] = x * ear->turn[0].value - y * ear->turn[1].value;
+  ear->now[1] = x * ear->turn[1].value + y * ear->turn[0].value;
   ++ear->n_heard;
-}
-
-static void turn(Intonation* ear) {
-  const bool is_last = --ear->n_turning == 0;
-  for (int i = 0; i < 2; ++i) {
-    ear->turn[i] = is_last ? ear->turned[i] : ear->turn[i] + ear->change[i];
-  }
 }
 
 /* What a turn that moves in a straight line loses in length, and rounding. */
@@ -120,29 +109,29 @@ static void mend(Intonation* ear) {
   ear->now[1] /= size;
 }
 
-void intonation_hear(Intonation* ear, Chain* chain, double speed) {
+bool intonation_hear(Intonation* ear, Chain* chain, double speed) {
+  bool has_moved = false;
   if (!ear->is_active) {
-    return;
+    return false;
   }
-  if (ear->n_turning > 0) {
-    turn(ear);
-  }
+  (void)line_next(&ear->turn[0]);
+  (void)line_next(&ear->turn[1]);
   add(ear, speed);
   if (ear->n_heard >= ear->due) {
-    if (ear->before[0] != 0.0 || ear->before[1] != 0.0) {
-      follow(ear, chain, ear->n_heard);
-    }
+    has_moved =
+        (ear->before[0] != 0.0 || ear->before[1] != 0.0) && follow(ear, chain, ear->n_heard);
     ear->before[0] = ear->sum[0];
     ear->before[1] = ear->sum[1];
     mend(ear);
     begin_sum(ear, ear->n_heard - ear->due);
   }
+  return has_moved;
 }
 
 void intonation_leave(Intonation* ear, Chain* chain, uint32_t n_glide) {
   if (ear->is_active) {
     ear->is_active = false;
     ear->cents = 0.0;
-    move(ear, chain, n_glide);
+    (void)move(ear, chain, n_glide);
   }
 }

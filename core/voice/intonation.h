@@ -20,6 +20,7 @@
 #ifndef HOOKE_CORE_VOICE_INTONATION_H
 #define HOOKE_CORE_VOICE_INTONATION_H
 
+#include "core/base/line.h"
 #include "core/string/chain.h"
 #include "core/string/tuning.h"
 
@@ -33,15 +34,12 @@
 typedef struct {
   TuningTarget target; /**< What is to be heard */
   double cents;        /**< How far above it the string is tuned */
-  double turn[2];      /**< exp(−2πi F/rate) */
-  double turned[2];    /**< Where it goes */
-  double change[2];    /**< By how much a frame */
+  Line turn[2];        /**< exp(−2πi F/rate); it moves while others move the string */
   double now[2];       /**< exp(−2πi F n/rate) */
   double sum[2];       /**< z, so far */
   double before[2];    /**< z, of the last sum; 0: none */
   double due;          /**< Frame at which a sum ends; what is over counts for the next */
   uint32_t n_heard;    /**< Frames in the sum so far */
-  uint32_t n_turning;  /**< Frames for which others move the string */
   bool is_active;
 } Intonation;
 
@@ -55,8 +53,9 @@ void intonation_start(Intonation* ear, const TuningTarget* target);
 */
 TuningTarget intonation_retune(Intonation* ear, const TuningTarget* target, uint32_t n_glide);
 
-/** Hear the next frame's speed, and move the string when it is time and nobody else does. */
-void intonation_hear(Intonation* ear, Chain* chain, double speed);
+/** Hear the next frame's speed, and move the string when it is time and nobody else does.
+ * @return Whether the chain has set out for other coefficients */
+bool intonation_hear(Intonation* ear, Chain* chain, double speed);
 
 /** Listen no more, and bring the string back to its own pitch in `n_glide` frames. */
 void intonation_leave(Intonation* ear, Chain* chain, uint32_t n_glide);

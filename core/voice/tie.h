@@ -8,38 +8,47 @@
 #ifndef HOOKE_CORE_VOICE_TIE_H
 #define HOOKE_CORE_VOICE_TIE_H
 
+#include "core/base/line.h"
+#include "core/string/chain.h"
 #include "core/voice/bridge.h"
-#include "core/voice/voice.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
 /** Zero is no tie. */
 typedef struct {
-  BridgeTie now;
-  BridgeTie change; /**< Per frame, while it glides */
-  BridgeTie goal;
-  uint32_t n_gliding; /**< Frames until it is there; 0 when it stands still */
-  uint32_t n_masses;  /**< Of the string that it was made for */
-  BridgeHold hold;    /**< What `goal` was made with */
-  BridgeShift shift;  /**< What the bridge did to the string when it was last tuned */
+  Line pull; /**< As of a BridgeTie; the three move together */
+  Line spring;
+  Line load;
+  double weight;
+  uint32_t n_masses; /**< Of the string that it was made for */
+  BridgeHold hold;   /**< What it goes to was made with */
+  BridgeShift shift; /**< What the bridge did to the string when it was last tuned */
 } Tie;
+
+/** As it is now. */
+BridgeTie tie_now(const Tie* tie);
+
+/** Frames until it stands still. */
+static inline uint32_t tie_stretch(const Tie* tie) {
+  return tie->pull.n_left;
+}
 
 /** Whether the bridge and the string know of each other. */
 bool tie_is_on(const Tie* tie);
 
-/**
-   Retune a voice that is awake, as voice_retune(), such that it is in tune once it is tied with
-   `hold` and the glide is over.
+/** Whether a hold is one at all. */
+static inline bool tie_is_wanted(BridgeHold hold) {
+  return hold.mass * hold.lever > 0.0;
+}
 
-   @return as voice_retune(); on failure the tie is as it was
-*/
-bool tie_retune(Tie* tie,
-                const Bridge* bridge,
-                Voice* voice,
-                const TuningTarget* target,
-                BridgeHold hold,
-                uint32_t n_glide);
+/** The string may have other masses than the tie was made for: tie those, at once, for they moved
+ * at once too. */
+void tie_take_masses(Tie* tie, const Chain* chain);
+
+/** The chain has set out, in `n_glide` frames, for the coefficients that suit `hold`: so does the
+ * tie. */
+void tie_glide(Tie* tie, const Chain* chain, BridgeHold hold, uint32_t n_glide);
 
 /** The chain has set out for other coefficients, by a few cents: so does the tie. */
 void tie_follow(Tie* tie, const Chain* chain);
@@ -49,15 +58,9 @@ void tie_renew(Tie* tie, uint32_t n_frames);
 
 /** Go on by one frame. */
 static inline void tie_advance(Tie* tie) {
-  if (tie->n_gliding > 0) {
-    const BridgeTie change = tie->change;
-    tie->now.pull += change.pull;
-    tie->now.spring += change.spring;
-    tie->now.load += change.load;
-    if (--tie->n_gliding == 0) {
-      tie->now = tie->goal;
-    }
-  }
+  (void)line_next(&tie->pull);
+  (void)line_next(&tie->spring);
+  (void)line_next(&tie->load);
 }
 
 #endif

@@ -59,14 +59,14 @@ static double place_velocity(double place, const Motion* motion) {
 /* Friction of the curve: at most the static, and where it slips just what the curve says. */
 static void assert_on_the_curve(const Bow* bow, double place, StringCoefs coefs, uint32_t n) {
   const double k1 = coefs.k1;
-  const double force = bow->strength.now * bow->pressed.now * sqrt(k1);
+  const double force = bow->strength.value * bow->pressed.value * sqrt(k1);
   const double beta = fmin(place, 1.0 - place);
   /* Never less than the fall of the friction, times what the string and its roll give way by. */
   const double at = fmin(fmax(place * (n + 1.0), 1.0), n);
   const double w = at - floor(at);
   const double square = (1.0 - w) * (1.0 - w) + w * w;
   const double give = 0.5 * square + 1.0 / (sqrt(k1) * (1.0 + 0.5 * bow->spring));
-  const double pace = bow->strength.now * bow->paced.now / beta;
+  const double pace = bow->strength.value * bow->paced.value / beta;
   const double v0 = fmax(1e-300, fmax(pace, 0.5 * give * force));
   if (bow->state == BOW_STICKS) {
     assert_true(bow->slip == 0.0 && fabs(bow->friction) <= 0.8 * force * (1.0 + 1e-12));
@@ -91,7 +91,7 @@ static void power_comes_from_the_bow_alone(void** state) {
     strung_up_anywhere(&strung, memory, &random, CHAIN_DOUBLE);
     const StringCoefs coefs = strung.chain.now;
     bow_start(&bow, &strung.chain, stroke_anyhow(&random), strung.angle1, strung.rate_hz);
-    const double swing = bow.paced.now * random_below(&random, 4);
+    const double swing = bow.paced.value * random_below(&random, 4);
     chain_push(&strung.chain, strung.chain.n_masses / 2,
                (float)(swing * (strung.chain.n_masses + 1.0)));
     bow_look(&bow, &strung.chain);
@@ -102,7 +102,7 @@ static void power_comes_from_the_bow_alone(void** state) {
     for (int n = 0; n < 1000 && bow.is_active; ++n) {
       Motion* const old = &motion[n % 2];
       Motion* const new = &motion[(n + 1) % 2];
-      const double place = bow.place.now;
+      const double place = bow.place.value;
       strung_step(&strung, 0);
       bow_act(&bow, &strung.chain);
       strung_read(&strung, new);
@@ -211,12 +211,12 @@ static void friction_does_not_jump(void** state) {
     }
     strung_step(&strung, 0);
     memcpy(copy, memory, sizeof memory);
-    const double force = bow.pressed.now * sqrt(strung.chain.now.k1);
+    const double force = bow.pressed.value * sqrt(strung.chain.now.k1);
     const double far = 20.0 * (bow.hair + force) * (1.0 + 1.0 / sqrt(strung.chain.now.k1));
     double before = 0.0;
     for (int n = 0; n <= N_PUSHES; ++n) {
       Bow now = bow;
-      const Contact contact = contact_at(&strung.chain, bow.place.now);
+      const Contact contact = contact_at(&strung.chain, bow.place.value);
       memcpy(memory, copy, sizeof memory);
       contact_push(&strung.chain, &contact, far * (2.0 * n / N_PUSHES - 1.0));
       bow_act(&now, &strung.chain);

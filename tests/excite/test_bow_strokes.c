@@ -38,7 +38,7 @@ static void a_swell_goes_in_a_straight_line(void** state) {
   Bow bow = bow_on(&strung, 57, (Stroke){0.13, 0.5, 0.25, 0.01, 0.05});
   bow_frames(&strung, &bow, 5000);
   const double speed = bow.hair;
-  const double force = bow.pressed.now;
+  const double force = bow.pressed.value;
   double before = 1.0;
   for (size_t k = 0; k < sizeof swells / sizeof *swells; ++k) {
     const uint32_t n_frames = swells[k].n_frames;
@@ -48,10 +48,10 @@ static void a_swell_goes_in_a_straight_line(void** state) {
       const double strength = before + way * (swells[k].got - before);
       bow_frames(&strung, &bow, 1);
       assert_true(fabs(bow.hair - strength * speed) <= 1e-12 * speed);
-      assert_true(bow.pressed.now == force && bow.paced.now == bow.drawn.now);
+      assert_true(bow.pressed.value == force && bow.paced.value == bow.drawn.value);
       assert_true(bow.is_active);
     }
-    before = bow.strength.now;
+    before = bow.strength.value;
     assert_true(before == swells[k].got);
   }
 }
@@ -96,17 +96,17 @@ static void a_stroke_takes_over_from_the_one_before(void** state) {
     const Stroke stroke = strokes[k % 4];
     const double n_frames = 48000.0 * stroke.attack_s;
     bow_start(&bow, &strung.chain, stroke, strung.angle1, 48000.0);
-    const double force = was.strength.now * was.pressed.now;
+    const double force = was.strength.value * was.pressed.value;
     const double hair_step = fabs(bow.drawn.goal - was.hair) / n_frames;
     const double force_step = 2.0 * fabs(bow.pressed.goal - force) / n_frames;
     bow_frames(&strung, &bow, 1);
     assert_true(fabs(bow.hair - was.hair) <= hair_step * (1.0 + 1e-9));
-    assert_true(fabs(bow.pressed.now - force) <= force_step * (1.0 + 1e-9));
-    assert_true(fabs(bow.place.now - was.place.now) <= 0.3 / n_frames);
+    assert_true(fabs(bow.pressed.value - force) <= force_step * (1.0 + 1e-9));
+    assert_true(fabs(bow.place.value - was.place.value) <= 0.3 / n_frames);
     bow_frames(&strung, &bow, (uint32_t)n_frames);
-    assert_true(bow.place.now == fmax(0.03, stroke.place) && bow.hair == bow.drawn.goal);
-    assert_true(bow.strength.now == 1.0 && bow.is_active && !bow.is_lifted);
-    const Contact contact = contact_at(&strung.chain, bow.place.now);
+    assert_true(bow.place.value == fmax(0.03, stroke.place) && bow.hair == bow.drawn.goal);
+    assert_true(bow.strength.value == 1.0 && bow.is_active && !bow.is_lifted);
+    const Contact contact = contact_at(&strung.chain, bow.place.value);
     assert_true(fabs(bow.before - contact_velocity(&strung.chain, &contact)) < 1e-6 * bow.hair);
   }
 }

@@ -116,7 +116,7 @@ static void look(Played* played) {
 
 static bool share_a_mass(const Played* played) {
   const Contact a = contact_at(&played->strung.chain, played->hammer.make.place);
-  const Contact b = contact_at(&played->strung.chain, played->bow.place.now);
+  const Contact b = contact_at(&played->strung.chain, played->bow.place.value);
   return a.mass[0] <= b.mass[1] && b.mass[0] <= a.mass[1];
 }
 

@@ -151,12 +151,12 @@ static void dead_string_sleeps_in_exact_zeros(void** state) {
   patch.string.damping_per_s = 20.0;
   patch.string.tracking = 0.0;
   assert_true(chain_size(GUITAR_MAX_MASSES) <= sizeof(memory));
-  guitar_string_init(&string, RATE_HZ, 0, memory);
+  guitar_string_init(&string, &patch, RATE_HZ, 0, memory);
   string.open = 45.0;
-  guitar_string_pluck(&string, &patch, (Pluck){0.3, 0.5, 0.25});
+  guitar_string_pluck(&string, (Pluck){0.3, 0.5, 0.25});
   assert_true(string.voice.is_awake);
   while (string.voice.is_awake && n_frames < 100000) {
-    guitar_string_run(&string, &patch, &gains, 16, none);
+    guitar_string_run(&string, &gains, 16, none);
     n_frames += 16;
   }
   assert_within("seconds from ln(10⁶) τ", fabs(n_frames / RATE_HZ - log(1e6) / 20.0), 0.05);

@@ -31,7 +31,7 @@ static void solo_start(Solo* solo, double open) {
   solo->patch.string.damping_per_s = 1e-3;
   solo->patch.string.loss = 0.0;
   assert_true(chain_size(GUITAR_MAX_MASSES) <= sizeof(memory));
-  guitar_string_init(&solo->string, RATE_HZ, 0, memory);
+  guitar_string_init(&solo->string, &solo->patch, RATE_HZ, 0, memory);
   solo->string.open = open;
 }
 
@@ -39,7 +39,7 @@ static void solo_run(Solo* solo, uint32_t n_frames) {
   float none[GUITAR_MIX_FRAMES];
   while (n_frames > 0) {
     const uint32_t n = n_frames < GUITAR_MIX_FRAMES ? n_frames : GUITAR_MIX_FRAMES;
-    guitar_string_run(&solo->string, &solo->patch, &solo->gains, n, none);
+    guitar_string_run(&solo->string, &solo->gains, n, none);
     n_frames -= n;
   }
 }
@@ -66,15 +66,15 @@ static double kept(double open, double from, double to, bool is_bent, uint32_t n
   for (uint32_t i = 0; i < 12; ++i) {
     Solo solo;
     solo_start(&solo, open);
-    guitar_string_slide(&solo.string, &solo.patch, is_bent ? 0.0 : from, 0);
-    guitar_string_bend(&solo.string, &solo.patch, is_bent ? from : 0.0, 0);
-    guitar_string_pluck(&solo.string, &solo.patch, (Pluck){0.5, 0.3, 0.25});
+    guitar_string_slide(&solo.string, is_bent ? 0.0 : from, 0);
+    guitar_string_bend(&solo.string, is_bent ? from : 0.0, 0);
+    guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 0.25});
     solo_run(&solo, 1000 + 53 * i);
     const double before = motion_of(&solo);
     if (is_bent) {
-      guitar_string_bend(&solo.string, &solo.patch, to, n_frames);
+      guitar_string_bend(&solo.string, to, n_frames);
     } else {
-      guitar_string_slide(&solo.string, &solo.patch, to, n_frames);
+      guitar_string_slide(&solo.string, to, n_frames);
     }
     solo_run(&solo, n_frames + 3 * GESTURE);
     most = fmax(most, fabs(log2(motion_of(&solo) / before)));
@@ -116,13 +116,13 @@ static void pluck_in_a_gesture_is_as_loud(void** state) {
     for (int is_moving = 0; is_moving < 2; ++is_moving) {
       Solo solo;
       solo_start(&solo, 64.0);
-      guitar_string_slide(&solo.string, &solo.patch, is_moving == way ? 12.0 : 0.0, 0);
-      guitar_string_pluck(&solo.string, &solo.patch, (Pluck){0.5, 0.3, 1e-6});
+      guitar_string_slide(&solo.string, is_moving == way ? 12.0 : 0.0, 0);
+      guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 1e-6});
       solo_run(&solo, 1000);
       if (is_moving) {
-        guitar_string_slide(&solo.string, &solo.patch, way ? 0.0 : 12.0, GESTURE);
+        guitar_string_slide(&solo.string, way ? 0.0 : 12.0, GESTURE);
       }
-      guitar_string_pluck(&solo.string, &solo.patch, (Pluck){0.5, 0.3, 0.25});
+      guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 0.25});
       solo_run(&solo, 4 * GESTURE);
       motion[is_moving] = motion_of(&solo);
     }
@@ -136,13 +136,12 @@ static void places_stay_when_strings_are_fretted(void** state) {
   (void)state;
   Solo solo;
   solo_start(&solo, 64.0);
-  guitar_string_slide(&solo.string, &solo.patch, 5.0, 0);
+  guitar_string_slide(&solo.string, 5.0, 0);
   solo.patch.capo = 7.0;
-  assert_within("off twice", fabs(guitar_string_place(&solo.string, &solo.patch, 0.2) - 0.4),
-                1e-12);
-  assert_true(guitar_string_place(&solo.string, &solo.patch, 0.46) == GUITAR_FARTHEST);
-  guitar_string_pluck(&solo.string, &solo.patch, (Pluck){0.5, 0.3, 0.25});
-  assert_within("read off it", fabs(solo.string.reading.heard[0] - 0.2), 1e-12);
+  assert_within("off twice", fabs(guitar_string_place(&solo.string, 0.2) - 0.4), 1e-12);
+  assert_true(guitar_string_place(&solo.string, 0.46) == GUITAR_FARTHEST);
+  guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 0.25});
+  assert_within("read off it", fabs(solo.string.pickups.heard[0].place - 0.2), 1e-12);
 }
 
 int main(void) {

@@ -171,8 +171,8 @@ static void each_side_of_a_string_can_be_played(void** state) {
       Harp* const harp = harps_new(48000.0, &patch);
       harp_note_on(harp, 0, 60, 100);
       const HarpString* const string = &harp->strings[60];
-      worst = fmax(worst, fabs(way < BOWED ? string->hammer.make.place - struck[p]
-                                           : string->bow.place.now - bowed[p]));
+      worst = fmax(worst, fabs(way < BOWED ? string->voice.hammer.make.place - struck[p]
+                                           : string->voice.bow.place.value - bowed[p]));
       harp_free(harp);
     }
   }

@@ -46,14 +46,14 @@ static void a_bend_does_not_take_back_what_is_being_given(void** state) {
 
 static void assert_sees(const HarpString* string) {
   const Chain* const chain = &string->voice.chain;
-  if (string->bow.is_active) {
-    const Contact contact = contact_at(chain, string->bow.place.now);
-    assert_true(string->bow.before == contact_velocity(chain, &contact));
+  if (string->voice.bow.is_active) {
+    const Contact contact = contact_at(chain, string->voice.bow.place.value);
+    assert_true(string->voice.bow.before == contact_velocity(chain, &contact));
   }
-  if (string->hammer.is_active) {
-    const Contact contact = contact_at(chain, string->hammer.make.place);
-    const double now = string->hammer.position - contact_position(chain, &contact);
-    assert_true(string->hammer.now == now);
+  if (string->voice.hammer.is_active) {
+    const Contact contact = contact_at(chain, string->voice.hammer.make.place);
+    const double now = string->voice.hammer.position - contact_position(chain, &contact);
+    assert_true(string->voice.hammer.now == now);
   }
 }
 
@@ -73,7 +73,7 @@ static void what_touches_a_string_sees_it_as_it_is(void** state) {
         harps_restart(harp, &patch);
         harp_note_on(harp, 0, key, 100);
         harps_run(harp, at, NULL, NULL);
-        n_seen += string->bow.is_active || string->hammer.is_active;
+        n_seen += string->voice.bow.is_active || string->voice.hammer.is_active;
         harp_bend(harp, 0, 7.0);
         assert_sees(string);
         harps_run(harp, 10, NULL, NULL);

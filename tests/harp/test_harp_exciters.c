@@ -96,9 +96,9 @@ static void a_bow_is_lifted_when_its_key_goes_up(void** state) {
     const double tau_s = harps_tone(&patch, key, 0.0).tau_s;
     harps_restart(harp, &patch);
     play_and_let_go(harp, key, 1.02);
-    assert_true(harp->strings[key].bow.is_active);
+    assert_true(harp->strings[key].voice.bow.is_active);
     run(harp, 1.02, 1.04);
-    assert_false(harp->strings[key].bow.is_active);
+    assert_false(harp->strings[key].voice.bow.is_active);
     run(harp, 1.04, 3.2);
     const double fall = decibels(exp(-1.0 / tau_s));
     worst = fmax(worst, fabs(level_db(3.0) - level_db(2.0) - fall));

@@ -59,9 +59,9 @@ static void fail_case(const Case* c, const char* what, double value) {
 static void pluck(Case* c) {
   assert_true(chain_size(CHAIN_MAX_MASSES) <= sizeof(memory));
   c->patch = settings_patch(&c->setting);
-  harp_string_init(&c->string, c->rate_hz, c->key, memory, CHAIN_MAX_MASSES);
+  harp_string_init(&c->string, &c->patch, c->rate_hz, c->key, memory, CHAIN_MAX_MASSES, NULL);
   const Pluck hardest = {c->patch.pluck, c->patch.hardness, HARP_NOTE_PEAK};
-  harp_string_play(&c->string, &c->patch, hardest, 0);
+  harp_string_play(&c->string, hardest, 0);
 }
 
 /* How near the limit a single mass of this tone is: what it would take to sound at all. */
@@ -102,7 +102,7 @@ static double check_margins(Case* c) {
     worst = fmin(worst, margin(c));
     c->string.touch.bend = bends[b];
     c->string.lift = b % 2;
-    harp_string_retune(&c->string, &c->patch, 0);
+    harp_string_retune(&c->string, 0);
   }
   return worst;
 }

@@ -88,7 +88,7 @@ static void breath_and_pressure_are_the_bows_strength(void** state) {
   assert_within("pressed as well, dB", fabs(bowed_db(harp) - full), 1.0);
   harp_breathe(harp, 0, 1.0);
   assert_within("pressed alone, dB off 6", fabs(bowed_db(harp) - full - 6.02), 1.0);
-  assert_true(harp->strings[KEY].vibrato.depth == 0.0);
+  assert_true(harp->strings[KEY].voice.motion.depth.value == 0.0);
   harp_breathe(harp, 0, 0.0);
   /* Without any it leaves the string, which rings on. */
   harps_run(harp, RATE / 10, NULL, NULL);

@@ -81,7 +81,7 @@ static void a_vibrato_is_exact_in_its_mean(void** state) {
 /* Largest way from its place that a string's pitch is on within half a second [cents]. */
 static double swing_of(Harp* harp, uint32_t key) {
   const HarpString* const string = &harp->strings[key];
-  const double f0_hz = harp_string_pitch_hz(string, &harp->patch);
+  const double f0_hz = harp_string_pitch_hz(string);
   double most = 0.0;
   for (uint32_t n = 0; n < RATE / 2; n += 64) {
     harps_run(harp, 64, NULL, NULL);

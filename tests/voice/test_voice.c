@@ -17,32 +17,30 @@ enum { CAPACITY = 128 };
 
 static _Alignas(CHAIN_ALIGNMENT) char memory[1 << 15];
 
-static TuningTarget target_of(double f0_hz, double tau_s) {
-  return (TuningTarget){RATE_HZ, {f0_hz, tau_s}, 0.01, 0.0, PARTIALS_TRUEST};
+static VoiceAim aim_of(double f0_hz, double tau_s) {
+  return (VoiceAim){.open = {RATE_HZ, {f0_hz, tau_s}, 0.01, 0.0, PARTIALS_TRUEST}};
 }
 
 static void run(Voice* voice, uint32_t n_frames) {
-  static const ChainTap tap = {{0, 0}, {1.0f, 0.0f}};
+  static const Reading reading = {.at = {{PICKUP_DISPLACEMENT, 0.1, false}}, .n_taps = 1};
   float none[1024];
   float* const out[] = {none};
-  while (n_frames > 0 && voice->is_awake) {
-    uint32_t n = voice_stretch(voice) < n_frames ? voice_stretch(voice) : n_frames;
-    n = n < 1024 ? n : 1024;
-    chain_run(&voice->chain, n, &tap, 1, out);
-    voice_pass(voice, n);
+  while (n_frames > 0) {
+    const uint32_t n = n_frames < 1024 ? n_frames : 1024;
+    voice_run(voice, &reading, 0.0, n, out);
     n_frames -= n;
   }
 }
 
 static void lay(Voice* voice) {
   assert_true(chain_size(CAPACITY) <= sizeof(memory));
-  voice_init(voice, RATE_HZ, 3, memory, CAPACITY);
+  voice_init(voice, RATE_HZ, 3, memory, CAPACITY, (VoiceOwner){0}, NULL);
 }
 
 static void ring(Voice* voice, double f0_hz, double tau_s) {
-  const TuningTarget target = target_of(f0_hz, tau_s);
+  const VoiceAim aim = aim_of(f0_hz, tau_s);
   lay(voice);
-  assert_true(voice_string(voice, &target, CAPACITY));
+  assert_true(voice_string(voice, &aim, CAPACITY, 0));
   voice_pluck(voice, (Pluck){0.3, 0.3, 0.25});
 }
 
@@ -77,46 +75,47 @@ static void string_has_the_most_masses_that_are_stable(void** state) {
   (void)state;
   static const double pitches_hz[] = {50.0, 330.0, 660.0, 5e3, 20e3};
   for (int i = 0; i < 5; ++i) {
-    const TuningTarget target = target_of(pitches_hz[i], 1.0);
+    const VoiceAim aim = aim_of(pitches_hz[i], 1.0);
     StringCoefs coefs = {0};
     Voice voice;
     uint32_t n = CAPACITY;
     for (bool is_stable = false; !is_stable; n -= !is_stable) {
-      assert_int_equal(tuning_solve(&target, n, &coefs), STATUS_OK);
+      assert_int_equal(tuning_solve(&aim.open, n, &coefs), STATUS_OK);
       is_stable = n == 1 || oracle_headroom(coefs, n) >= TUNING_MARGIN;
     }
     lay(&voice);
-    assert_true(voice_string(&voice, &target, 1000000));
+    assert_true(voice_string(&voice, &aim, 1000000, 0));
     assert_int_equal(voice.chain.n_masses, n);
     assert_true(voice.headroom >= TUNING_LAST_MARGIN && voice.is_awake);
-    assert_true(voice_string(&voice, &target, 5));
+    assert_true(voice_string(&voice, &aim, 5, 0));
     assert_int_equal(voice.chain.n_masses, n < 5 ? n : 5);
   }
 }
 
-static void pitch_that_cannot_be_had_is_refused(void** state) {
+static void pitch_that_cannot_be_had_chokes_it(void** state) {
   (void)state;
-  const TuningTarget target = target_of(24e3, 1.0);
+  const VoiceAim aim = aim_of(24e3, 1.0);
   Voice voice;
   lay(&voice);
-  assert_false(voice_string(&voice, &target, CAPACITY));
+  assert_false(voice_string(&voice, &aim, CAPACITY, 0));
   assert_false(voice.is_awake);
   ring(&voice, 110.0, 1.0);
   const uint32_t n_masses = voice.chain.n_masses;
-  assert_false(voice_retune(&voice, &target, 192));
-  assert_false(voice_mesh(&voice, &target, 0));
-  assert_true(voice.is_awake && voice.chain.n_masses == n_masses && voice.f0_hz == 110.0);
+  voice_aim(&voice, &aim, 192);
+  assert_true(voice.is_choked && voice.is_awake && voice.chain.n_masses == n_masses);
+  run(&voice, 192);
   assert_within("cents off", fabs(1200.0 * log2(tone_of(&voice).f0_hz / 110.0)), 1e-6);
+  assert_within("τ off, relative", fabs(tone_of(&voice).tau_s / VOICE_CHOKE_S - 1.0), 1e-6);
 }
 
 static void retuned_it_arrives_and_has_its_motion(void** state) {
   (void)state;
-  const TuningTarget target = target_of(123.0, 0.5);
+  const VoiceAim aim = aim_of(123.0, 0.5);
   Voice voice;
   ring(&voice, 110.0, 1e3);
   run(&voice, 1000);
   const double before = motion_of(&voice);
-  assert_true(voice_retune(&voice, &target, 4000));
+  voice_aim(&voice, &aim, 4000);
   assert_true(voice_stretch(&voice) <= 4000);
   run(&voice, 4000);
   assert_within("cents off", fabs(1200.0 * log2(tone_of(&voice).f0_hz / 123.0)), 1e-6);
@@ -129,13 +128,14 @@ static void retuned_it_arrives_and_has_its_motion(void** state) {
 static void meshed_it_keeps_pitch_decay_and_motion(void** state) {
   (void)state;
   static const uint32_t meshes[] = {60, 31, 90, CAPACITY};
-  const TuningTarget elsewhere = target_of(300.0, 0.1);
+  const VoiceAim elsewhere = aim_of(123.0, 0.1);
   Voice voice;
   ring(&voice, 110.0, 2.0);
   run(&voice, 3000);
   const double before = chain_amplitude(&voice.chain, voice.a1);
   for (int i = 0; i < 4; ++i) {
-    assert_true(voice_mesh(&voice, &elsewhere, meshes[i]));
+    voice_shorten(&voice, &elsewhere, meshes[i]);
+    voice_lengthen(&voice, &elsewhere, meshes[i]);
     assert_int_equal(voice.chain.n_masses, meshes[i]);
     assert_within("cents off", fabs(1200.0 * log2(tone_of(&voice).f0_hz / 110.0)), 1e-6);
     assert_within("τ off, relative", fabs(tone_of(&voice).tau_s / 2.0 - 1.0), 1e-6);
@@ -148,15 +148,15 @@ static void meshed_it_keeps_pitch_decay_and_motion(void** state) {
 /* Tension that swings in time with it feeds it, but for what is taken back. */
 static void swinging_tension_feeds_it_so_far_only(void** state) {
   (void)state;
-  const TuningTarget low = target_of(200.0, 100.0);
-  const TuningTarget high = target_of(280.0, 100.0);
+  const VoiceAim low = aim_of(200.0, 100.0);
+  const VoiceAim high = aim_of(280.0, 100.0);
   double most = 0.0;
   for (uint32_t period = 40; period < 130; period += 3) {
     Voice voice;
     ring(&voice, 200.0, 100.0);
     const double given = voice.given;
     for (int i = 0; i < 200; ++i) {
-      assert_true(voice_retune(&voice, i % 2 ? &low : &high, 4));
+      voice_aim(&voice, i % 2 ? &low : &high, 4);
       run(&voice, period);
       most = fmax(most, motion_of(&voice) / given);
     }
@@ -202,7 +202,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gesture_is_four_milliseconds_and_enough_frames),
       cmocka_unit_test(string_has_the_most_masses_that_are_stable),
-      cmocka_unit_test(pitch_that_cannot_be_had_is_refused),
+      cmocka_unit_test(pitch_that_cannot_be_had_chokes_it),
       cmocka_unit_test(retuned_it_arrives_and_has_its_motion),
       cmocka_unit_test(meshed_it_keeps_pitch_decay_and_motion),
       cmocka_unit_test(swinging_tension_feeds_it_so_far_only),

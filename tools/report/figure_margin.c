@@ -45,8 +45,8 @@ static HarpPatch patch_of_loss(double way) {
 static HarpString string_of(const HarpPatch* patch, uint32_t key, void* memory) {
   const Pluck pluck = {patch->pluck, patch->hardness, HARP_NOTE_PEAK};
   HarpString string;
-  harp_string_init(&string, RATE_HZ, key, memory, CHAIN_MAX_MASSES);
-  harp_string_play(&string, patch, pluck, 0);
+  harp_string_init(&string, patch, RATE_HZ, key, memory, CHAIN_MAX_MASSES, NULL);
+  harp_string_play(&string, pluck, 0);
   return string;
 }
 
