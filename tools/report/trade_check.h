@@ -1,12 +1,12 @@
 /**
-   The closed forms of tools/report/trade.h beside what strings really play.
+   The closed forms of tools/bench/bench_way.h beside what strings really play.
 
    Thread: any; allocates.
 */
 #ifndef HOOKE_TOOLS_REPORT_TRADE_CHECK_H
 #define HOOKE_TOOLS_REPORT_TRADE_CHECK_H
 
-#include "tools/report/trade.h"
+#include "tools/bench/bench_way.h"
 
 /** The farthest that any was off. */
 typedef struct {
@@ -23,10 +23,7 @@ typedef struct {
 
 /** Play a string, and measure partials 1, 2, 5, 10 and 20 of it that there are.  Nothing is done
  * for one that does not exist or is not stable. */
-void trade_check_string(TradeCheck* check,
-                        TradeMethod method,
-                        TradeString string,
-                        uint32_t n_masses);
+void trade_check_string(TradeCheck* check, BenchWay method, TradeString string, uint32_t n_masses);
 
 /** All methods, strings of 55 and 440 Hz at 48 kHz, with 20 and 80 masses and as many as go. */
 TradeCheck trade_check_all(void);

@@ -1,4 +1,4 @@
-#include "tools/report/trade_survey.h"
+#include "tools/bench/bench_survey.h"
 
 #include <math.h>
 
@@ -16,7 +16,7 @@ double trade_level(const TradePoint* point, TradeError error) {
 }
 
 static bool is_in(const TradePoint* point, TradeCompany company) {
-  return company == TRADE_AMONG_ALL || point->method.kind != TRADE_BANK;
+  return company == TRADE_AMONG_ALL || point->method.kind != BENCH_BANK;
 }
 
 static bool is_fit(const TradePoint* point, TradeError error, TradeCompany company) {
@@ -82,7 +82,7 @@ const TradePoint* trade_cheapest(const TradeSurvey* survey,
 }
 
 const TradePoint*
-trade_find(const TradeSurvey* survey, TradeMethod method, TradeString string, uint32_t n_masses) {
+trade_find(const TradeSurvey* survey, BenchWay method, TradeString string, uint32_t n_masses) {
   for (size_t i = 0; i < survey->n; ++i) {
     const TradePoint* const point = &survey->points[i];
     if (trade_is_same(point->string, string) && point->n_masses == n_masses &&

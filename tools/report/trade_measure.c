@@ -2,7 +2,7 @@
 
 #include "tools/report/trade_measure.h"
 
-#include "tools/report/trade_engine.h"
+#include "tools/bench/bench_player.h"
 
 #include <math.h>
 #include <time.h>
@@ -25,11 +25,11 @@ typedef struct {
   double x, u;
 } State;
 
-static void run(TradeEngine* engine, uint32_t n_frames) {
+static void run(BenchPlayer* engine, uint32_t n_frames) {
   float out[BLOCK];
   for (uint32_t left = n_frames; left > 0;) {
     const uint32_t n = left < BLOCK ? left : BLOCK;
-    trade_engine_run(engine, n, out);
+    bench_player_run(engine, n, out);
     left -= n;
   }
 }
@@ -66,30 +66,30 @@ static bool tone_of(const State s[3], uint32_t m, double turn, double rate_hz, T
 }
 
 bool trade_measure_tone(
-    TradeMethod method, TradeString string, uint32_t n_masses, uint32_t k, Tone* tone) {
+    BenchWay method, TradeString string, uint32_t n_masses, uint32_t k, Tone* tone) {
   Tone near = {0};
   State states[3];
-  if (!trade_tone(method, string, n_masses, k, &near) || !(near.f0_hz > 0.0)) {
+  if (!bench_way_tone(method, string, n_masses, k, &near) || !(near.f0_hz > 0.0)) {
     return false;
   }
-  TradeEngine* const engine = trade_engine_new(method, string, n_masses);
+  BenchPlayer* const engine = bench_player_new(method, string, n_masses);
   if (!engine) {
     return false;
   }
   const double turn = 2.0 * PI * near.f0_hz / string.rate_hz;
-  const double length_s = method.kind == TRADE_NETWORK ? SHORT_S : LONG_S;
+  const double length_s = method.kind == BENCH_NETWORK ? SHORT_S : LONG_S;
   const uint32_t stride = stride_of(turn, string.rate_hz, length_s);
   for (int i = 0; i < 3; ++i) {
     run(engine, i > 0 ? stride : 0);
-    trade_engine_mode(engine, k, &states[i].x, &states[i].u);
+    bench_player_mode(engine, k, &states[i].x, &states[i].u);
   }
-  trade_engine_free(engine);
+  bench_player_free(engine);
   return tone_of(states, stride, turn, string.rate_hz, tone);
 }
 
-double trade_measure_noise(TradeMethod method, TradeString string, uint32_t n_masses) {
-  TradeEngine* const coarse = trade_engine_new(method, string, n_masses);
-  TradeEngine* const exact = trade_engine_new_exact(method, string, n_masses);
+double trade_measure_noise(BenchWay method, TradeString string, uint32_t n_masses) {
+  BenchPlayer* const coarse = bench_player_new(method, string, n_masses);
+  BenchPlayer* const exact = bench_player_new_exact(method, string, n_masses);
   double noise = 0.0;
   double sound = 0.0;
   if (coarse && exact) {
@@ -97,8 +97,8 @@ double trade_measure_noise(TradeMethod method, TradeString string, uint32_t n_ma
     for (uint32_t block = 0; block < n_blocks; ++block) {
       float heard[BLOCK];
       float wanted[BLOCK];
-      trade_engine_run(coarse, BLOCK, heard);
-      trade_engine_run(exact, BLOCK, wanted);
+      bench_player_run(coarse, BLOCK, heard);
+      bench_player_run(exact, BLOCK, wanted);
       for (uint32_t n = 0; n < BLOCK; ++n) {
         const double off = (double)heard[n] - (double)wanted[n];
         noise += off * off;
@@ -106,8 +106,8 @@ double trade_measure_noise(TradeMethod method, TradeString string, uint32_t n_ma
       }
     }
   }
-  trade_engine_free(coarse);
-  trade_engine_free(exact);
+  bench_player_free(coarse);
+  bench_player_free(exact);
   return sound > 0.0 ? 10.0 * log10(noise / sound) : (double)NAN;
 }
 
@@ -117,14 +117,14 @@ static double now_ns(void) {
   return 1e9 * (double)time.tv_sec + (double)time.tv_nsec;
 }
 
-static double look_ns(TradeEngine* engine, uint32_t n_frames) {
+static double look_ns(BenchPlayer* engine, uint32_t n_frames) {
   const double start = now_ns();
   run(engine, n_frames);
   return now_ns() - start;
 }
 
 void trade_measure_time(TradeClock* clock) {
-  TradeEngine* const engine = trade_engine_new(clock->method, clock->string, clock->n_masses);
+  BenchPlayer* const engine = bench_player_new(clock->method, clock->string, clock->n_masses);
   if (!engine) {
     clock->ns = (double)NAN;
     return;
@@ -140,5 +140,5 @@ void trade_measure_time(TradeClock* clock) {
     taken = look_ns(engine, clock->n_frames);
   }
   clock->ns = fmin(clock->ns, taken / clock->n_frames);
-  trade_engine_free(engine);
+  bench_player_free(engine);
 }

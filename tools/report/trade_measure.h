@@ -1,5 +1,5 @@
 /**
-   What is measured of a string of a method (tools/report/trade.h): what it plays, its noise, its
+   What is measured of a string of a method (tools/bench/bench_way.h): what it plays, its noise, its
    run time.
 
    Thread: any; allocates.
@@ -7,7 +7,7 @@
 #ifndef HOOKE_TOOLS_REPORT_TRADE_MEASURE_H
 #define HOOKE_TOOLS_REPORT_TRADE_MEASURE_H
 
-#include "tools/report/trade.h"
+#include "tools/bench/bench_way.h"
 
 /**
    Measure mode `k` from the motion.
@@ -19,18 +19,18 @@
    @return false if there is no such string or no memory, or the mode does not vibrate
 */
 bool trade_measure_tone(
-    TradeMethod method, TradeString string, uint32_t n_masses, uint32_t k, Tone* tone);
+    BenchWay method, TradeString string, uint32_t n_masses, uint32_t k, Tone* tone);
 
 /**
    Play a tenth of a second in the method's numbers and in doubles.
 
    @return How much quieter the difference is than the sound [dB], negative; NAN if it cannot be had
 */
-double trade_measure_noise(TradeMethod method, TradeString string, uint32_t n_masses);
+double trade_measure_noise(BenchWay method, TradeString string, uint32_t n_masses);
 
 /** Something to be timed. */
 typedef struct {
-  TradeMethod method;
+  BenchWay method;
   TradeString string;
   uint32_t n_masses;
   uint32_t n_frames; /**< In one look; 0 before the first */

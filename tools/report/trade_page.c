@@ -99,15 +99,15 @@ static void write_settings(FILE* out, const TradeSurvey* survey) {
     const TradePoint* const ideal = trade_words_point(survey, setting, 0, 0);
     const TradePoint* const stiff = trade_words_point(survey, setting, 0, 1);
     if (ideal && stiff) {
-      const TradeMethod method = ideal->method;
+      const BenchWay method = ideal->method;
       const uint32_t n = ideal->n_masses;
-      const uint32_t k = trade_true_up_to(method, ideal->string, n, 5.0);
-      (void)fprintf(out, "| %s | %u | %.2g, %.2g, %.2g | %.2g, %.2g | %.0f Hz | %.3f |\n",
-                    names[setting.partials], n, trade_partial_cents(method, ideal->string, n, 5),
-                    trade_partial_cents(method, ideal->string, n, 10),
-                    trade_partial_cents(method, ideal->string, n, 20), ideal->error[TRADE_PARTIALS],
-                    stiff->error[TRADE_PARTIALS], trade_ideal_hz(ideal->string, k),
-                    100.0 * ideal->share);
+      const uint32_t k = bench_way_true_up_to(method, ideal->string, n, 5.0);
+      (void)fprintf(
+          out, "| %s | %u | %.2g, %.2g, %.2g | %.2g, %.2g | %.0f Hz | %.3f |\n",
+          names[setting.partials], n, bench_way_partial_cents(method, ideal->string, n, 5),
+          bench_way_partial_cents(method, ideal->string, n, 10),
+          bench_way_partial_cents(method, ideal->string, n, 20), ideal->error[TRADE_PARTIALS],
+          stiff->error[TRADE_PARTIALS], bench_way_ideal_hz(ideal->string, k), 100.0 * ideal->share);
     }
   }
 }
@@ -124,7 +124,7 @@ static void write_front(FILE* out, const TradeSurvey* survey, const TradePicture
         point->string.inharmonicity == trade_string(0, picture->stiffness, 0).inharmonicity;
     if (is_shown && (is_first || point->is_front[TRADE_AMONG_STRINGS][picture->error])) {
       char name[TRADE_NAME_SIZE];
-      trade_name(point->method, name);
+      bench_way_name(point->method, name);
       (void)fprintf(out, "| %g Hz | %s | %s | %u | %.3g %s | %.4f |\n", point->string.f0_hz,
                     is_first ? "all" : "strings", name, point->n_masses,
                     trade_level(point, picture->error), picture->unit, 100.0 * point->share);

@@ -7,9 +7,9 @@
 #define HOOKE_TOOLS_REPORT_TRADE_PAGE_H
 
 #include "core/base/status.h"
+#include "tools/bench/bench_survey.h"
 #include "tools/report/report_place.h"
 #include "tools/report/trade_check.h"
-#include "tools/report/trade_survey.h"
 
 #include <stdbool.h>
 #include <stdio.h>

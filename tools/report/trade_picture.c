@@ -41,9 +41,9 @@ const TradePicture* trade_picture(unsigned i) {
 
 static Crowd crowd_of(const TradePoint* point) {
   switch (point->method.kind) {
-  case TRADE_NETWORK:
+  case BENCH_NETWORK:
     return NETWORKS;
-  case TRADE_BANK:
+  case BENCH_BANK:
     return BANKS;
   default:
     return point->method.is_corrected ? (Crowd)point->method.partials : UNCORRECTED;
@@ -62,7 +62,7 @@ static bool is_drawn(const TradePoint* point, TradeString string, TradeError err
 
 /* Numbers make no difference to what is in closed form, or none to see. */
 static bool is_dot(const TradePoint* point, TradeError error) {
-  return error == TRADE_NOISE || point->method.kind != TRADE_CHAIN ||
+  return error == TRADE_NOISE || point->method.kind != BENCH_CHAIN ||
          point->method.numbers == CHAIN_FIXED;
 }
 
@@ -223,7 +223,7 @@ void trade_picture_points(FILE* file, const TradeSurvey* survey) {
     char name[TRADE_NAME_SIZE];
     char all[8];
     char strings[8];
-    trade_name(point->method, name);
+    bench_way_name(point->method, name);
     (void)fprintf(
         file, "%g,%g,%g,\"%s\",%u,%d,%d,%.2f,%.5f,%.4g,%.4g,%.4g,%.4g,%s,%s\n", point->string.f0_hz,
         point->string.inharmonicity, point->string.rate_hz, name, point->n_masses, point->is_stable,

@@ -6,8 +6,8 @@
 #ifndef HOOKE_TOOLS_REPORT_TRADE_PICTURE_H
 #define HOOKE_TOOLS_REPORT_TRADE_PICTURE_H
 
+#include "tools/bench/bench_survey.h"
 #include "tools/report/report_place.h"
-#include "tools/report/trade_survey.h"
 
 #include <stdio.h>
 

@@ -30,13 +30,13 @@ const TradePoint* trade_words_point(const TradeSurvey* survey,
                                     TradeSetting setting,
                                     unsigned pitch,
                                     unsigned stiffness) {
-  const TradeMethod method = {.kind = TRADE_CHAIN,
-                              .scheme = NETWORK_SYMPLECTIC,
-                              .partials = setting.partials,
-                              .numbers = CHAIN_FIXED,
-                              .is_corrected = true};
+  const BenchWay method = {.kind = BENCH_CHAIN,
+                           .scheme = NETWORK_SYMPLECTIC,
+                           .partials = setting.partials,
+                           .numbers = CHAIN_FIXED,
+                           .is_corrected = true};
   const TradeString string = trade_string(pitch, stiffness, AT_48_KHZ);
-  const uint32_t most = trade_max_masses(method, string);
+  const uint32_t most = bench_way_max_masses(method, string);
   return trade_find(survey, method, string, most < setting.masses ? most : setting.masses);
 }
 
@@ -64,7 +64,7 @@ static TradeSetting choose(const TradeSurvey* survey, double most_share) {
     const TradeSetting setting = {point->method.partials, point->n_masses};
     double share = 0.0;
     if (trade_is_same(point->string, trade_string(LOWEST, 0, AT_48_KHZ)) &&
-        point->method.kind == TRADE_CHAIN &&
+        point->method.kind == BENCH_CHAIN &&
         trade_words_worst(survey, setting, &share) <= FAIR_CENTS && share <= most_share) {
       const double price = most_share < HUGE_VAL ? -(double)setting.masses : share;
       best = price < least ? setting : best;
@@ -93,7 +93,8 @@ void trade_words_sentence(const TradeSurvey* survey,
       text, TRADE_TEXT_SIZE,
       "%u masses (%s) give %.2g cents at the tenth partial of 55 Hz, for %.2g %% of a core.",
       point->n_masses, partials_names[setting.partials],
-      trade_partial_cents(point->method, point->string, point->n_masses, 10), 100.0 * point->share);
+      bench_way_partial_cents(point->method, point->string, point->n_masses, 10),
+      100.0 * point->share);
 }
 
 void trade_words_method(const TradeSurvey* survey, char text[TRADE_TEXT_SIZE]) {
@@ -145,7 +146,7 @@ add_default(char* text, const TradeSurvey* survey, const TradePicture* picture, 
   }
   const TradePoint* const first =
       trade_cheapest(survey, point, picture->error, TRADE_AMONG_STRINGS);
-  trade_name(first->method, name);
+  bench_way_name(first->method, name);
   if (first == point) {
     add(text, "within a grain of it.  ");
   } else {
@@ -179,15 +180,15 @@ static void add_setting(char* text, const TradeSurvey* survey, TradeSetting sett
   const double worst = trade_words_worst(survey, setting, &all);
   const TradePoint* const low = trade_words_point(survey, setting, LOWEST, 0);
   assert(low);
-  const uint32_t k = trade_true_up_to(low->method, low->string, low->n_masses, TRUE_CENTS);
+  const uint32_t k = bench_way_true_up_to(low->method, low->string, low->n_masses, TRUE_CENTS);
   add(text,
       "%s with %u masses errs by at most %.2g cents; at 55 Hz it takes %.2g %% of a core, is "
       "within "
       "%g cents up to %.0f Hz and has partials up to %.0f Hz.  ",
       partials_names[setting.partials], setting.masses, worst, 100.0 * low->share, TRUE_CENTS,
-      trade_ideal_hz(low->string, k),
-      trade_ideal_hz(low->string, low->n_masses) *
-          exp2(trade_partial_cents(low->method, low->string, low->n_masses, low->n_masses) /
+      bench_way_ideal_hz(low->string, k),
+      bench_way_ideal_hz(low->string, low->n_masses) *
+          exp2(bench_way_partial_cents(low->method, low->string, low->n_masses, low->n_masses) /
                1200.0));
 }
 

@@ -6,9 +6,9 @@
 #ifndef HOOKE_TOOLS_REPORT_TRADE_WORDS_H
 #define HOOKE_TOOLS_REPORT_TRADE_WORDS_H
 
+#include "tools/bench/bench_survey.h"
 #include "tools/report/trade_check.h"
 #include "tools/report/trade_picture.h"
-#include "tools/report/trade_survey.h"
 
 /** The longest text, and its zero. */
 enum { TRADE_TEXT_SIZE = 2048 };

@@ -1,4 +1,4 @@
-#include "tools/report/trade_survey.h"
+#include "tools/bench/bench_survey.h"
 
 #include "tools/report/trade_measure.h"
 
@@ -31,12 +31,12 @@ TradeString trade_string(unsigned pitch, unsigned stiffness, unsigned rate) {
 }
 
 /* Networks have no bending: nothing to compare with a stiff string. */
-static bool can_have(TradeMethod method, TradeString string) {
-  return string.inharmonicity == 0.0 || (method.kind != TRADE_NETWORK && method.is_corrected);
+static bool can_have(BenchWay method, TradeString string) {
+  return string.inharmonicity == 0.0 || (method.kind != BENCH_NETWORK && method.is_corrected);
 }
 
-static bool is_default(TradeMethod method, TradeString string, uint32_t n, uint32_t most) {
-  return method.kind == TRADE_CHAIN && method.partials == TRADE_DEFAULT_PARTIALS &&
+static bool is_default(BenchWay method, TradeString string, uint32_t n, uint32_t most) {
+  return method.kind == BENCH_CHAIN && method.partials == TRADE_DEFAULT_PARTIALS &&
          method.numbers == CHAIN_FIXED && method.is_corrected &&
          string.rate_hz == TRADE_DEFAULT_RATE_HZ &&
          n == (most < TRADE_DEFAULT_MASSES ? most : TRADE_DEFAULT_MASSES);
@@ -44,16 +44,16 @@ static bool is_default(TradeMethod method, TradeString string, uint32_t n, uint3
 
 static bool has_noise(const TradePoint* point) {
   return point->method.is_corrected && point->string.inharmonicity == 0.0 &&
-         point->method.kind != TRADE_NETWORK;
+         point->method.kind != BENCH_NETWORK;
 }
 
-static TradePoint make_point(TradeMethod method, TradeString string, uint32_t n, uint32_t most) {
+static TradePoint make_point(BenchWay method, TradeString string, uint32_t n, uint32_t most) {
   TradePoint point = {.method = method, .string = string, .n_masses = n};
-  point.is_stable = trade_is_stable(method, string, n);
+  point.is_stable = bench_way_is_stable(method, string, n);
   point.is_default = is_default(method, string, n, most);
-  point.error[TRADE_PITCH] = trade_pitch_error(method, string, n);
-  point.error[TRADE_DECAY] = trade_decay_error(method, string, n);
-  point.error[TRADE_PARTIALS] = trade_partials_error(method, string, n);
+  point.error[TRADE_PITCH] = bench_way_pitch_error(method, string, n);
+  point.error[TRADE_DECAY] = bench_way_decay_error(method, string, n);
+  point.error[TRADE_PARTIALS] = bench_way_partials_error(method, string, n);
   point.error[TRADE_NOISE] = (double)NAN;
   if (has_noise(&point)) {
     point.error[TRADE_NOISE] =
@@ -63,13 +63,13 @@ static TradePoint make_point(TradeMethod method, TradeString string, uint32_t n,
 }
 
 /* All numbers of masses of one method. */
-static void add_points(TradeSurvey* survey, TradeMethod method, TradeString string) {
-  const uint32_t most = trade_max_masses(method, string);
+static void add_points(TradeSurvey* survey, BenchWay method, TradeString string) {
+  const uint32_t most = bench_way_max_masses(method, string);
   uint32_t last = 0;
   for (unsigned c = 0; c <= N_COUNTS && last < most; ++c) {
     last = c < N_COUNTS && counts[c] < most ? counts[c] : most;
     Tone tone = {0};
-    if (trade_tone(method, string, last, 1, &tone)) {
+    if (bench_way_tone(method, string, last, 1, &tone)) {
       survey->points[survey->n++] = make_point(method, string, last, most);
     }
   }
@@ -78,15 +78,15 @@ static void add_points(TradeSurvey* survey, TradeMethod method, TradeString stri
 /* Backward Euler takes as long as it needs to converge, which is up to the string. */
 static bool is_same_clock(const TradeClock* clock, const TradePoint* point) {
   const bool is_backward =
-      point->method.kind == TRADE_NETWORK && point->method.scheme == NETWORK_BACKWARD;
+      point->method.kind == BENCH_NETWORK && point->method.scheme == NETWORK_BACKWARD;
   return clock->n_masses == point->n_masses &&
          (!is_backward || trade_is_same(clock->string, point->string));
 }
 
 static void assign_clock(Clocks* clocks, const TradePoint* point, size_t i) {
   StringCoefs coefs = {0};
-  (void)trade_coefs(point->method, point->string, point->n_masses, &coefs);
-  const unsigned loop = trade_loop(point->method, coefs);
+  (void)bench_way_coefs(point->method, point->string, point->n_masses, &coefs);
+  const unsigned loop = bench_way_loop(point->method, coefs);
   size_t c = 0;
   while (c < clocks->n && !(clocks->loops[c] == loop && is_same_clock(&clocks->clocks[c], point))) {
     ++c;
@@ -132,9 +132,9 @@ static Status take_time(TradeSurvey* survey) {
 }
 
 static void add_string(TradeSurvey* survey, TradeString string) {
-  for (unsigned m = 0; m < TRADE_N_METHODS; ++m) {
-    if (can_have(trade_method(m), string)) {
-      add_points(survey, trade_method(m), string);
+  for (unsigned m = 0; m < BENCH_N_WAYS; ++m) {
+    if (can_have(bench_way_at(m), string)) {
+      add_points(survey, bench_way_at(m), string);
     }
   }
 }
@@ -143,7 +143,7 @@ Status trade_survey(TradeSurvey* survey) {
   enum { N_STRINGS = TRADE_N_PITCHES * TRADE_N_STIFFNESSES * TRADE_N_RATES };
   *survey = (TradeSurvey){0};
   survey->points =
-      malloc((size_t)N_STRINGS * TRADE_N_METHODS * (N_COUNTS + 1) * sizeof(*survey->points));
+      malloc((size_t)N_STRINGS * BENCH_N_WAYS * (N_COUNTS + 1) * sizeof(*survey->points));
   if (!survey->points) {
     return STATUS_NO_MEMORY;
   }

@@ -1,8 +1,8 @@
-#include "tools/report/trade.h"
+#include "tools/bench/bench_step.h"
+#include "tools/bench/bench_survey.h"
+#include "tools/bench/bench_way.h"
 #include "tools/report/trade_check.h"
 #include "tools/report/trade_measure.h"
-#include "tools/report/trade_scheme.h"
-#include "tools/report/trade_survey.h"
 
 #include "tests/support/oracle.h"
 #include "tests/support/random.h"
@@ -20,19 +20,19 @@
 
 static const double PI = 3.14159265358979323846;
 
-static TradeMethod chain(Partials partials, ChainNumbers numbers, bool is_corrected) {
-  return (TradeMethod){.kind = TRADE_CHAIN,
-                       .scheme = NETWORK_SYMPLECTIC,
-                       .partials = partials,
-                       .numbers = numbers,
-                       .is_corrected = is_corrected};
+static BenchWay chain(Partials partials, ChainNumbers numbers, bool is_corrected) {
+  return (BenchWay){.kind = BENCH_CHAIN,
+                    .scheme = NETWORK_SYMPLECTIC,
+                    .partials = partials,
+                    .numbers = numbers,
+                    .is_corrected = is_corrected};
 }
 
-static TradeMethod network(NetworkScheme scheme, bool is_corrected) {
-  return (TradeMethod){.kind = TRADE_NETWORK,
-                       .scheme = scheme,
-                       .numbers = CHAIN_DOUBLE,
-                       .is_corrected = is_corrected};
+static BenchWay network(NetworkScheme scheme, bool is_corrected) {
+  return (BenchWay){.kind = BENCH_NETWORK,
+                    .scheme = scheme,
+                    .numbers = CHAIN_DOUBLE,
+                    .is_corrected = is_corrected};
 }
 
 /* Without damping. */
@@ -46,8 +46,8 @@ static void partials_are_those_of_the_table(void** state) {
   (void)state;
   double worst = 0.0;
   for (int i = 0; i < 9; ++i) {
-    const TradeMethod method = chain((Partials)(i / 3), CHAIN_DOUBLE, true);
-    const double off = trade_partial_cents(method, string, 80, k[i % 3]) - cents[i / 3][i % 3];
+    const BenchWay method = chain((Partials)(i / 3), CHAIN_DOUBLE, true);
+    const double off = bench_way_partial_cents(method, string, 80, k[i % 3]) - cents[i / 3][i % 3];
     worst = fmax(worst, fabs(off) / rounding[i / 3][i % 3]);
   }
   assert_within("in halves of the last digit", worst, 1.0);
@@ -57,18 +57,19 @@ static void partials_are_those_of_the_table(void** state) {
  * are; without damping ω_d h = 2 asin(ωh/2). */
 static void uncorrected_is_as_sharp_as_the_paper_says(void** state) {
   TradeString string = {.f0_hz = 440.0, .tau_s = 1.0, .loss = 1.0, .rate_hz = 6000.0};
-  const TradeMethod method = chain(PARTIALS_LUMPED, CHAIN_DOUBLE, false);
+  const BenchWay method = chain(PARTIALS_LUMPED, CHAIN_DOUBLE, false);
   const double turn = 2.0 * PI * string.f0_hz / string.rate_hz;
   (void)state;
   /* Half of a unit of its last digit. */
   assert_within("444.026 Hz [cents]",
-                fabs(trade_pitch_error(method, string, 5) - 1200.0 * log2(444.026 / 440.0)), 2e-3);
+                fabs(bench_way_pitch_error(method, string, 5) - 1200.0 * log2(444.026 / 440.0)),
+                2e-3);
   assert_within("corrected [cents]",
-                trade_pitch_error(chain(PARTIALS_LUMPED, CHAIN_DOUBLE, true), string, 5), 1e-9);
+                bench_way_pitch_error(chain(PARTIALS_LUMPED, CHAIN_DOUBLE, true), string, 5), 1e-9);
   string.tau_s = HUGE_VAL;
   const double sharp_cents = 1200.0 * log2(2.0 * asin(0.5 * turn) / turn);
-  assert_within("2 asin(ωh/2) [cents]", fabs(trade_pitch_error(method, string, 5) - sharp_cents),
-                1e-9);
+  assert_within("2 asin(ωh/2) [cents]",
+                fabs(bench_way_pitch_error(method, string, 5) - sharp_cents), 1e-9);
 }
 
 /* |z|² = 1 − g + a for forward Euler, and 1/(1 + g + a) for backward. */
@@ -80,15 +81,15 @@ static void eulers_grow_and_starve_as_theory_says(void** state) {
   Tone forward = {0};
   Tone backward = {0};
   (void)state;
-  assert_true(trade_tone(network(NETWORK_FORWARD, false), string, 20, 1, &forward));
-  assert_true(trade_tone(network(NETWORK_BACKWARD, false), string, 20, 1, &backward));
+  assert_true(bench_way_tone(network(NETWORK_FORWARD, false), string, 20, 1, &forward));
+  assert_true(bench_way_tone(network(NETWORK_BACKWARD, false), string, 20, 1, &backward));
   assert_within("forward", fabs(forward.tau_s * string.rate_hz * log1p(a - g) / -2.0 - 1.0), 1e-9);
   assert_within("backward", fabs(backward.tau_s * string.rate_hz * log1p(a + g) / 2.0 - 1.0), 1e-9);
   assert_true(forward.tau_s < 0.0);
-  assert_false(trade_is_stable(network(NETWORK_FORWARD, false), string, 20));
-  assert_false(trade_is_stable(network(NETWORK_FORWARD, true), string, 20));
-  assert_true(trade_is_stable(network(NETWORK_BACKWARD, false), string, 20));
-  assert_false(trade_tone(network(NETWORK_BACKWARD, true), string, 20, 1, &backward));
+  assert_false(bench_way_is_stable(network(NETWORK_FORWARD, false), string, 20));
+  assert_false(bench_way_is_stable(network(NETWORK_FORWARD, true), string, 20));
+  assert_true(bench_way_is_stable(network(NETWORK_BACKWARD, false), string, 20));
+  assert_false(bench_way_tone(network(NETWORK_BACKWARD, true), string, 20, 1, &backward));
 }
 
 static void solved_masses_sound_as_they_were_asked_to(void** state) {
@@ -102,8 +103,8 @@ static void solved_masses_sound_as_they_were_asked_to(void** state) {
     const Tone tone = {random_log_between(&random, 20.0, 5000.0),
                        random_log_between(&random, 0.1, 10.0)};
     Pole mass = {0};
-    assert_true(trade_scheme_solve(scheme, 48000.0, tone, &mass));
-    const Tone heard = trade_scheme_tone(scheme, 48000.0, mass);
+    assert_true(bench_step_solve(scheme, 48000.0, tone, &mass));
+    const Tone heard = bench_step_tone(scheme, 48000.0, mass);
     worst = fmax(worst, fabs(heard.f0_hz / tone.f0_hz - 1.0));
   }
   /* A rounding of the trace weighs as 1/θ², 1.5e5 at 20 Hz. */
@@ -115,19 +116,19 @@ static void chain_has_the_poles_of_its_step_matrix(void** state) {
   enum { N = 12 };
   const TradeString string = {
       .f0_hz = 440.0, .tau_s = 2.0, .inharmonicity = 1e-4, .loss = 0.01, .rate_hz = 22050.0};
-  const TradeMethod method = chain(PARTIALS_TRUEST, CHAIN_DOUBLE, true);
+  const BenchWay method = chain(PARTIALS_TRUEST, CHAIN_DOUBLE, true);
   double complex poles[2 * N];
   StringCoefs coefs = {0};
   double worst = 0.0;
   (void)state;
-  assert_true(trade_coefs(method, string, N, &coefs));
+  assert_true(bench_way_coefs(method, string, N, &coefs));
   oracle_poles(coefs, N, poles);
   for (uint32_t k = 1; k <= N; ++k) {
     double nearest = HUGE_VAL;
     for (int i = 0; i < 2 * N; ++i) {
       const double f_hz = carg(poles[i]) * string.rate_hz / (2.0 * PI);
-      const double cents = 1200.0 * log2(fabs(f_hz) / trade_ideal_hz(string, k));
-      nearest = fmin(nearest, fabs(cents - trade_partial_cents(method, string, N, k)));
+      const double cents = 1200.0 * log2(fabs(f_hz) / bench_way_ideal_hz(string, k));
+      nearest = fmin(nearest, fabs(cents - bench_way_partial_cents(method, string, N, k)));
     }
     worst = fmax(worst, nearest);
   }
@@ -140,9 +141,9 @@ static void what_is_played_is_what_is_computed(void** state) {
       {.f0_hz = 1760.0, .tau_s = 2.0, .inharmonicity = 1e-4, .loss = 0.01, .rate_hz = 44100.0}};
   TradeCheck check = {{0}, {0}};
   (void)state;
-  for (unsigned m = 0; m < TRADE_N_METHODS; ++m) {
-    trade_check_string(&check, trade_method(m), strings[0], 24);
-    trade_check_string(&check, trade_method(m), strings[1], 5);
+  for (unsigned m = 0; m < BENCH_N_WAYS; ++m) {
+    trade_check_string(&check, bench_way_at(m), strings[0], 24);
+    trade_check_string(&check, bench_way_at(m), strings[1], 5);
   }
   assert_true(check.in_doubles.n > 50 && check.in_floats.n > 50);
   /* Chains are read as floats, 6e-8, over a fifth of a second. */
@@ -157,7 +158,7 @@ static void noise_is_that_of_the_numbers(void** state) {
   const TradeString string = {.f0_hz = 110.0, .tau_s = 2.0, .loss = 0.01, .rate_hz = 48000.0};
   (void)state;
   for (int numbers = 0; numbers < N_CHAIN_NUMBERS; ++numbers) {
-    const TradeMethod method = chain(PARTIALS_TRUE, (ChainNumbers)numbers, true);
+    const BenchWay method = chain(PARTIALS_TRUE, (ChainNumbers)numbers, true);
     const double noise_db = trade_measure_noise(method, string, 40);
     assert_within("noise [dB]", noise_db, numbers == CHAIN_DOUBLE ? -200.0 : -85.0);
     assert_true(numbers == CHAIN_DOUBLE || noise_db > -140.0);
@@ -167,14 +168,14 @@ static void noise_is_that_of_the_numbers(void** state) {
 /* Missing ones count 1200 cents, and those above Nyquist nothing. */
 static void missing_partials_are_counted(void** state) {
   const TradeString string = {.f0_hz = 1760.0, .tau_s = 2.0, .loss = 0.01, .rate_hz = 48000.0};
-  const TradeMethod bank = trade_method(TRADE_N_METHODS - 1);
+  const BenchWay bank = bench_way_at(BENCH_N_WAYS - 1);
   (void)state;
-  assert_int_equal(trade_max_masses(bank, string), 13);
-  assert_within("none", trade_partials_error(bank, string, 13), 1e-9);
-  assert_within("one of 13", fabs(trade_partials_error(bank, string, 12) - 1200.0 / sqrt(13.0)),
+  assert_int_equal(bench_way_max_masses(bank, string), 13);
+  assert_within("none", bench_way_partials_error(bank, string, 13), 1e-9);
+  assert_within("one of 13", fabs(bench_way_partials_error(bank, string, 12) - 1200.0 / sqrt(13.0)),
                 1e-6);
-  assert_true(isnan(trade_partial_cents(bank, string, 12, 13)));
-  assert_int_equal(trade_true_up_to(bank, string, 12, 5.0), 12);
+  assert_true(isnan(bench_way_partial_cents(bank, string, 12, 13)));
+  assert_int_equal(bench_way_true_up_to(bank, string, 12, 5.0), 12);
 }
 
 static bool is_worse(const TradePoint* a, const TradePoint* b, TradeError error) {
@@ -195,7 +196,7 @@ static void nothing_beats_a_frontier(void** state) {
   unsigned n_front = 0;
   (void)state;
   for (size_t i = 0; i < N; ++i) {
-    points[i] = (TradePoint){.method = trade_method(random_below(&random, TRADE_N_METHODS)),
+    points[i] = (TradePoint){.method = bench_way_at(random_below(&random, BENCH_N_WAYS)),
                              .string = trade_string((unsigned)i / (N / 3), 0, 0),
                              .share = ldexp(1e-4, (int)random_below(&random, 12)),
                              .is_stable = random_below(&random, 10) > 0};
@@ -209,12 +210,12 @@ static void nothing_beats_a_frontier(void** state) {
     const TradePoint* const point = &points[i % N];
     const TradeError error = (TradeError)(i / N % TRADE_N_ERRORS);
     const int company = (int)(i / N / TRADE_N_ERRORS);
-    const bool is_in = company == TRADE_AMONG_ALL || point->method.kind != TRADE_BANK;
+    const bool is_in = company == TRADE_AMONG_ALL || point->method.kind != BENCH_BANK;
     const bool is_fit = is_in && point->is_stable && !isnan(point->error[error]);
     bool has_better = false;
     for (size_t j = 0; j < N; ++j) {
       const bool is_rival = trade_is_same(points[j].string, point->string) && points[j].is_stable &&
-                            (company == TRADE_AMONG_ALL || points[j].method.kind != TRADE_BANK);
+                            (company == TRADE_AMONG_ALL || points[j].method.kind != BENCH_BANK);
       const bool is_front = points[j].is_front[company][error];
       assert_false(is_rival && point->is_front[company][error] && !isnan(points[j].error[error]) &&
                    is_worse(point, &points[j], error));
@@ -236,10 +237,10 @@ static void nothing_beats_a_frontier(void** state) {
 static void run_time_is_some(void** state) {
   const TradeString string = {.f0_hz = 440.0, .tau_s = 2.0, .loss = 0.01, .rate_hz = 48000.0};
   (void)state;
-  for (unsigned m = 0; m < TRADE_N_METHODS; ++m) {
-    TradeClock clock = {trade_method(m), string, 10, 0, HUGE_VAL};
+  for (unsigned m = 0; m < BENCH_N_WAYS; ++m) {
+    TradeClock clock = {bench_way_at(m), string, 10, 0, HUGE_VAL};
     Tone tone = {0};
-    const bool is_there = trade_tone(clock.method, string, 10, 1, &tone);
+    const bool is_there = bench_way_tone(clock.method, string, 10, 1, &tone);
     trade_measure_time(&clock);
     trade_measure_time(&clock);
     assert_true(is_there ? clock.ns > 0.0 && clock.ns < HUGE_VAL : isnan(clock.ns));

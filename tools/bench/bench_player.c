@@ -1,9 +1,9 @@
-#include "tools/report/trade_engine.h"
+#include "tools/bench/bench_player.h"
 
 #include "core/analysis/network.h"
 #include "core/excite/exciter.h"
 #include "core/string/chain.h"
-#include "tools/report/trade_bank.h"
+#include "tools/bench/bench_bank.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,8 +13,8 @@ static const double PI = 3.14159265358979323846;
 
 static const Pluck pluck = {.place = 0.13, .hardness = 1.0, .amplitude = 0.5};
 
-struct TradeEngine {
-  TradeMethod method;
+struct BenchPlayer {
+  BenchWay method;
   TradeString string;
   uint32_t n_masses;
   uint32_t reader; /* Mass that is read */
@@ -23,7 +23,7 @@ struct TradeEngine {
   Chain chain;
   void* memory;
   Network* network;
-  TradeBank* bank;
+  BenchBank* bank;
 };
 
 static void* aligned(size_t size) {
@@ -35,7 +35,7 @@ static void* aligned(size_t size) {
   return memory;
 }
 
-static bool string_chain(TradeEngine* engine, StringCoefs coefs) {
+static bool string_chain(BenchPlayer* engine, StringCoefs coefs) {
   engine->memory = aligned(chain_size(engine->n_masses));
   if (!engine->memory) {
     return false;
@@ -60,7 +60,7 @@ static Status fill_network(Network* network, StringCoefs coefs, uint32_t n_masse
 }
 
 /* As the chain of the same string is plucked. */
-static bool string_network(TradeEngine* engine, StringCoefs coefs) {
+static bool string_network(BenchPlayer* engine, StringCoefs coefs) {
   engine->network = network_new();
   if (!engine->network || fill_network(engine->network, coefs, engine->n_masses) ||
       !string_chain(engine, coefs)) {
@@ -73,21 +73,21 @@ static bool string_network(TradeEngine* engine, StringCoefs coefs) {
   return true;
 }
 
-static bool fill_bank(TradeEngine* engine, bool is_exact) {
+static bool fill_bank(BenchPlayer* engine, bool is_exact) {
   const double rate_hz = engine->string.rate_hz;
   const double r = exp(-1.0 / (engine->string.tau_s * rate_hz));
-  engine->bank = aligned(sizeof(TradeBank));
+  engine->bank = aligned(sizeof(BenchBank));
   if (!engine->bank) {
     return false;
   }
   engine->bank->is_double = is_exact || engine->method.numbers == CHAIN_DOUBLE;
   for (uint32_t k = 1; k <= engine->n_masses; ++k) {
-    const double turn = 2.0 * PI * trade_ideal_hz(engine->string, k) / rate_hz;
+    const double turn = 2.0 * PI * bench_way_ideal_hz(engine->string, k) / rate_hz;
     const bool is_float = engine->method.numbers == CHAIN_FLOAT;
     const double c = r * cos(turn);
     const double s = r * sin(turn);
     const double level = sin(PI * k * pluck.place) / k;
-    trade_bank_add(engine->bank, (double)(float)level, is_float ? (double)(float)c : c,
+    bench_bank_add(engine->bank, (double)(float)level, is_float ? (double)(float)c : c,
                    is_float ? (double)(float)s : s);
   }
   return true;
@@ -105,7 +105,7 @@ static StringCoefs rounded(StringCoefs c) {
   Of a string in whole numbers, x[n] = gain ρⁿ X[n], X without air but else as any string: played in
   doubles, and faded outside.  U = ρ u/gain + (1 − ρ) X.
 */
-static bool take_air_out(TradeEngine* engine) {
+static bool take_air_out(BenchPlayer* engine) {
   float x[CHAIN_MAX_MASSES];
   float u[CHAIN_MAX_MASSES];
   Chain* const chain = &engine->chain;
@@ -127,16 +127,16 @@ static bool take_air_out(TradeEngine* engine) {
   return true;
 }
 
-static bool prepare(TradeEngine* engine, bool is_exact) {
-  const TradeMethod method = engine->method;
+static bool prepare(BenchPlayer* engine, bool is_exact) {
+  const BenchWay method = engine->method;
   StringCoefs coefs = {0};
-  if (method.kind == TRADE_BANK) {
+  if (method.kind == BENCH_BANK) {
     return fill_bank(engine, is_exact);
   }
-  if (!trade_coefs(method, engine->string, engine->n_masses, &coefs)) {
+  if (!bench_way_coefs(method, engine->string, engine->n_masses, &coefs)) {
     return false;
   }
-  if (method.kind == TRADE_NETWORK) {
+  if (method.kind == BENCH_NETWORK) {
     return !is_exact && string_network(engine, coefs);
   }
   const bool is_float = method.numbers == CHAIN_FLOAT;
@@ -147,9 +147,9 @@ static bool prepare(TradeEngine* engine, bool is_exact) {
   return chain_hold(&engine->chain, is_exact ? CHAIN_DOUBLE : method.numbers);
 }
 
-static TradeEngine*
-new_engine(TradeMethod method, TradeString string, uint32_t n_masses, bool is_exact) {
-  TradeEngine* const engine = calloc(1, sizeof(*engine));
+static BenchPlayer*
+new_engine(BenchWay method, TradeString string, uint32_t n_masses, bool is_exact) {
+  BenchPlayer* const engine = calloc(1, sizeof(*engine));
   if (!engine) {
     return NULL;
   }
@@ -160,21 +160,21 @@ new_engine(TradeMethod method, TradeString string, uint32_t n_masses, bool is_ex
   engine->gain = 1.0;
   engine->fade = 1.0;
   if (!prepare(engine, is_exact)) {
-    trade_engine_free(engine);
+    bench_player_free(engine);
     return NULL;
   }
   return engine;
 }
 
-TradeEngine* trade_engine_new(TradeMethod method, TradeString string, uint32_t n_masses) {
+BenchPlayer* bench_player_new(BenchWay method, TradeString string, uint32_t n_masses) {
   return new_engine(method, string, n_masses, false);
 }
 
-TradeEngine* trade_engine_new_exact(TradeMethod method, TradeString string, uint32_t n_masses) {
+BenchPlayer* bench_player_new_exact(BenchWay method, TradeString string, uint32_t n_masses) {
   return new_engine(method, string, n_masses, true);
 }
 
-void trade_engine_free(TradeEngine* engine) {
+void bench_player_free(BenchPlayer* engine) {
   if (engine) {
     network_free(engine->network);
     free(engine->bank);
@@ -183,10 +183,10 @@ void trade_engine_free(TradeEngine* engine) {
   }
 }
 
-void trade_engine_run(TradeEngine* engine, uint32_t n_frames, float* out) {
+void bench_player_run(BenchPlayer* engine, uint32_t n_frames, float* out) {
   memset(out, 0, n_frames * sizeof(*out));
   if (engine->bank) {
-    trade_bank_run(engine->bank, n_frames, out);
+    bench_bank_run(engine->bank, n_frames, out);
   } else if (engine->network) {
     for (uint32_t n = 0; n < n_frames; ++n) {
       (void)network_step_by(engine->network, engine->method.scheme, 1.0);
@@ -203,9 +203,9 @@ void trade_engine_run(TradeEngine* engine, uint32_t n_frames, float* out) {
   }
 }
 
-void trade_engine_mode(const TradeEngine* engine, uint32_t k, double* x, double* u) {
+void bench_player_mode(const BenchPlayer* engine, uint32_t k, double* x, double* u) {
   if (engine->bank) {
-    trade_bank_mode(engine->bank, k, x, u);
+    bench_bank_mode(engine->bank, k, x, u);
     return;
   }
   *x = 0.0;

@@ -4,20 +4,20 @@
 
    Thread: one at a time; allocates.
 */
-#ifndef HOOKE_TOOLS_REPORT_TRADE_SURVEY_H
-#define HOOKE_TOOLS_REPORT_TRADE_SURVEY_H
+#ifndef HOOKE_TOOLS_BENCH_BENCH_SURVEY_H
+#define HOOKE_TOOLS_BENCH_BENCH_SURVEY_H
 
 #include "core/base/status.h"
-#include "tools/report/trade.h"
+#include "tools/bench/bench_way.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 
 /** What is weighed against run time. */
 typedef enum {
-  TRADE_PITCH,    /**< trade_pitch_error() [cents] */
-  TRADE_DECAY,    /**< trade_decay_error() [%] */
-  TRADE_PARTIALS, /**< trade_partials_error() [cents] */
+  TRADE_PITCH,    /**< bench_way_pitch_error() [cents] */
+  TRADE_DECAY,    /**< bench_way_decay_error() [%] */
+  TRADE_PARTIALS, /**< bench_way_partials_error() [cents] */
   TRADE_NOISE,    /**< trade_measure_noise() [dB] */
   TRADE_N_ERRORS
 } TradeError;
@@ -37,7 +37,7 @@ double trade_floor(TradeError error);
 
 /** A string of so many masses. */
 typedef struct {
-  TradeMethod method;
+  BenchWay method;
   TradeString string;
   uint32_t n_masses;
   double ns;                    /**< Of a step, measured */
@@ -82,7 +82,7 @@ const TradePoint* trade_cheapest(const TradeSurvey* survey,
 
 /** The point of a method and a number of masses; NULL if there is none. */
 const TradePoint*
-trade_find(const TradeSurvey* survey, TradeMethod method, TradeString string, uint32_t n_masses);
+trade_find(const TradeSurvey* survey, BenchWay method, TradeString string, uint32_t n_masses);
 
 /** Looks at the clock for each point, at all points in turn, so that a moment in which the machine
  * is busy spoils few of a point's. */
