@@ -9,36 +9,22 @@
 #ifndef HOOKE_TOOLS_BENCH_BENCH_BANK_H
 #define HOOKE_TOOLS_BENCH_BENCH_BANK_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
-enum {
-  BENCH_BANK_MAX = 1024, /**< Modes */
-  BENCH_BANK_FLOATS = 8, /**< Modes in a vector */
-  BENCH_BANK_DOUBLES = 4,
-  BENCH_BANK_BLOCK = 256 /**< Samples from one vector to the next */
-};
+enum { BENCH_BANK_MAX = 1024, /**< Modes */ BENCH_BANK_LANES = 4 /**< Modes in a vector */ };
 
 /** As many modes. */
-typedef float BenchFloats __attribute__((vector_size(BENCH_BANK_FLOATS * sizeof(float))));
-typedef double BenchDoubles __attribute__((vector_size(BENCH_BANK_DOUBLES * sizeof(double))));
+typedef double BenchLanes __attribute__((vector_size(BENCH_BANK_LANES * sizeof(double))));
 
-/** In floats: z = re + j im and what a step makes of it, r cos θ + j r sin θ. */
+/** z = re + j im and what a step makes of it, r cos θ + j r sin θ. */
 typedef struct {
-  BenchFloats re, im, c, s;
-} BenchFloatModes;
+  BenchLanes re, im, c, s;
+} BenchPhasors;
 
-/** In doubles. */
+/** A bank; zero is one without modes. */
 typedef struct {
-  BenchDoubles re, im, c, s;
-} BenchDoubleModes;
-
-/** A bank; zero is one without modes.  One of the two halves is in use. */
-typedef struct {
-  bool is_double;
   uint32_t n_modes;
-  BenchFloatModes floats[BENCH_BANK_MAX / BENCH_BANK_FLOATS];
-  BenchDoubleModes doubles[BENCH_BANK_MAX / BENCH_BANK_DOUBLES];
+  BenchPhasors phasors[BENCH_BANK_MAX / BENCH_BANK_LANES];
 } BenchBank;
 
 /** Add a mode that starts at `re` and turns by c + js a step; at most BENCH_BANK_MAX. */

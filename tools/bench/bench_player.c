@@ -11,11 +11,16 @@
 
 static const double PI = 3.14159265358979323846;
 
+enum { BLOCK = 256 };
+
+/* How long the noise is listened to [s]. */
+static const double NOISE_S = 0.1;
+
 static const Pluck pluck = {.place = 0.13, .hardness = 1.0, .amplitude = 0.5};
 
 struct BenchPlayer {
-  BenchWay method;
-  TradeString string;
+  BenchWay way;
+  TuningTarget wanted;
   uint32_t n_masses;
   uint32_t reader; /* Mass that is read */
   double gain;     /* Of what is read, after the last step */
@@ -35,14 +40,15 @@ static void* aligned(size_t size) {
   return memory;
 }
 
-static bool string_chain(BenchPlayer* engine, StringCoefs coefs) {
-  engine->memory = aligned(chain_size(engine->n_masses));
-  if (!engine->memory) {
+static bool string_chain(BenchPlayer* player, StringCoefs coefs) {
+  player->memory = aligned(chain_size(player->n_masses));
+  if (!player->memory) {
     return false;
   }
-  chain_init(&engine->chain, chain_kernel(0), engine->memory, engine->n_masses);
-  chain_set(&engine->chain, coefs);
-  exciter_pluck(&engine->chain, pluck, 2.0 * PI * engine->string.f0_hz / engine->string.rate_hz);
+  chain_init(&player->chain, chain_kernel(0), player->memory, player->n_masses);
+  chain_set(&player->chain, coefs);
+  exciter_pluck(&player->chain, pluck,
+                2.0 * PI * player->wanted.tone.f0_hz / player->wanted.rate_hz);
   return true;
 }
 
@@ -60,160 +66,166 @@ static Status fill_network(Network* network, StringCoefs coefs, uint32_t n_masse
 }
 
 /* As the chain of the same string is plucked. */
-static bool string_network(BenchPlayer* engine, StringCoefs coefs) {
-  engine->network = network_new();
-  if (!engine->network || fill_network(engine->network, coefs, engine->n_masses) ||
-      !string_chain(engine, coefs)) {
+static bool string_network(BenchPlayer* player, StringCoefs coefs) {
+  player->network = network_new();
+  if (!player->network || fill_network(player->network, coefs, player->n_masses) ||
+      !string_chain(player, coefs)) {
     return false;
   }
-  for (uint32_t i = 0; i < engine->n_masses; ++i) {
-    engine->network->x[i] = (double)chain_position(&engine->chain, i);
-    engine->network->v[i] = (double)chain_velocity(&engine->chain, i);
+  for (uint32_t i = 0; i < player->n_masses; ++i) {
+    player->network->x[i] = (double)chain_position(&player->chain, i);
+    player->network->v[i] = (double)chain_velocity(&player->chain, i);
   }
   return true;
 }
 
-static bool fill_bank(BenchPlayer* engine, bool is_exact) {
-  const double rate_hz = engine->string.rate_hz;
-  const double r = exp(-1.0 / (engine->string.tau_s * rate_hz));
-  engine->bank = aligned(sizeof(BenchBank));
-  if (!engine->bank) {
+static bool fill_bank(BenchPlayer* player) {
+  const double rate_hz = player->wanted.rate_hz;
+  const double r = exp(-1.0 / (player->wanted.tone.tau_s * rate_hz));
+  player->bank = aligned(sizeof(BenchBank));
+  if (!player->bank) {
     return false;
   }
-  engine->bank->is_double = is_exact || engine->method.numbers == CHAIN_DOUBLE;
-  for (uint32_t k = 1; k <= engine->n_masses; ++k) {
-    const double turn = 2.0 * PI * bench_way_ideal_hz(engine->string, k) / rate_hz;
-    const bool is_float = engine->method.numbers == CHAIN_FLOAT;
-    const double c = r * cos(turn);
-    const double s = r * sin(turn);
-    const double level = sin(PI * k * pluck.place) / k;
-    bench_bank_add(engine->bank, (double)(float)level, is_float ? (double)(float)c : c,
-                   is_float ? (double)(float)s : s);
+  for (uint32_t k = 1; k <= player->n_masses; ++k) {
+    const double turn = 2.0 * PI * bench_way_ideal_hz(player->wanted, k) / rate_hz;
+    bench_bank_add(player->bank, sin(PI * k * pluck.place) / k, r * cos(turn), r * sin(turn));
   }
   return true;
-}
-
-static StringCoefs rounded(StringCoefs c) {
-  return (StringCoefs){.k1 = (double)(float)c.k1,
-                       .k2 = (double)(float)c.k2,
-                       .z0 = (double)(float)c.z0,
-                       .z1 = (double)(float)c.z1,
-                       .k3 = (double)(float)c.k3};
 }
 
 /*
   Of a string in whole numbers, x[n] = gain ρⁿ X[n], X without air but else as any string: played in
   doubles, and faded outside.  U = ρ u/gain + (1 − ρ) X.
 */
-static bool take_air_out(BenchPlayer* engine) {
+static bool take_air_out(BenchPlayer* player) {
   float x[CHAIN_MAX_MASSES];
   float u[CHAIN_MAX_MASSES];
-  Chain* const chain = &engine->chain;
-  for (uint32_t i = 0; i < engine->n_masses; ++i) {
+  Chain* const chain = &player->chain;
+  for (uint32_t i = 0; i < player->n_masses; ++i) {
     x[i] = chain_position(chain, i);
     u[i] = chain_velocity(chain, i);
   }
   if (!chain_hold(chain, CHAIN_FIXED)) {
     return false;
   }
-  const StringCoefs whole = rounded(chain->whole);
-  engine->fade = chain->fade;
-  chain_init(chain, chain_kernel(0), engine->memory, engine->n_masses);
+  const StringCoefs whole = bench_way_rounded(chain->whole);
+  player->fade = chain->fade;
+  chain_init(chain, chain_kernel(0), player->memory, player->n_masses);
   chain_set(chain, whole);
-  for (uint32_t i = 0; i < engine->n_masses; ++i) {
-    const double of_x = (1.0 - engine->fade) * (double)x[i];
-    chain_place(chain, i, x[i], (float)(of_x + engine->fade * (double)u[i]));
+  for (uint32_t i = 0; i < player->n_masses; ++i) {
+    const double of_x = (1.0 - player->fade) * (double)x[i];
+    chain_place(chain, i, x[i], (float)(of_x + player->fade * (double)u[i]));
   }
   return true;
 }
 
-static bool prepare(BenchPlayer* engine, bool is_exact) {
-  const BenchWay method = engine->method;
+static bool prepare(BenchPlayer* player, bool is_exact) {
+  const BenchWay way = player->way;
   StringCoefs coefs = {0};
-  if (method.kind == BENCH_BANK) {
-    return fill_bank(engine, is_exact);
+  if (way.kind == BENCH_BANK) {
+    return fill_bank(player);
   }
-  if (!bench_way_coefs(method, engine->string, engine->n_masses, &coefs)) {
+  if (!bench_way_coefs(way, player->wanted, player->n_masses, &coefs)) {
     return false;
   }
-  if (method.kind == BENCH_NETWORK) {
-    return !is_exact && string_network(engine, coefs);
+  if (way.kind == BENCH_NETWORK) {
+    return !is_exact && string_network(player, coefs);
   }
-  const bool is_float = method.numbers == CHAIN_FLOAT;
-  if (!string_chain(engine, is_float && is_exact ? rounded(coefs) : coefs) ||
-      (is_exact && method.numbers == CHAIN_FIXED && !take_air_out(engine))) {
+  const bool is_float = way.numbers == CHAIN_FLOAT;
+  if (!string_chain(player, is_float && is_exact ? bench_way_rounded(coefs) : coefs) ||
+      (is_exact && way.numbers == CHAIN_FIXED && !take_air_out(player))) {
     return false;
   }
-  return chain_hold(&engine->chain, is_exact ? CHAIN_DOUBLE : method.numbers);
+  return chain_hold(&player->chain, is_exact ? CHAIN_DOUBLE : way.numbers);
 }
 
 static BenchPlayer*
-new_engine(BenchWay method, TradeString string, uint32_t n_masses, bool is_exact) {
-  BenchPlayer* const engine = calloc(1, sizeof(*engine));
-  if (!engine) {
+new_player(BenchWay way, TuningTarget wanted, uint32_t n_masses, bool is_exact) {
+  BenchPlayer* const player = calloc(1, sizeof(*player));
+  if (!player) {
     return NULL;
   }
-  engine->method = method;
-  engine->string = string;
-  engine->n_masses = n_masses;
-  engine->reader = n_masses / 3;
-  engine->gain = 1.0;
-  engine->fade = 1.0;
-  if (!prepare(engine, is_exact)) {
-    bench_player_free(engine);
+  player->way = way;
+  player->wanted = wanted;
+  player->n_masses = n_masses;
+  player->reader = n_masses / 3;
+  player->gain = 1.0;
+  player->fade = 1.0;
+  if (!prepare(player, is_exact)) {
+    bench_player_free(player);
     return NULL;
   }
-  return engine;
+  return player;
 }
 
-BenchPlayer* bench_player_new(BenchWay method, TradeString string, uint32_t n_masses) {
-  return new_engine(method, string, n_masses, false);
+BenchPlayer* bench_player_new(BenchWay way, TuningTarget wanted, uint32_t n_masses) {
+  return new_player(way, wanted, n_masses, false);
 }
 
-BenchPlayer* bench_player_new_exact(BenchWay method, TradeString string, uint32_t n_masses) {
-  return new_engine(method, string, n_masses, true);
-}
-
-void bench_player_free(BenchPlayer* engine) {
-  if (engine) {
-    network_free(engine->network);
-    free(engine->bank);
-    free(engine->memory);
-    free(engine);
+void bench_player_free(BenchPlayer* player) {
+  if (player) {
+    network_free(player->network);
+    free(player->bank);
+    free(player->memory);
+    free(player);
   }
 }
 
-void bench_player_run(BenchPlayer* engine, uint32_t n_frames, float* out) {
+void bench_player_run(BenchPlayer* player, uint32_t n_frames, float* out) {
   memset(out, 0, n_frames * sizeof(*out));
-  if (engine->bank) {
-    bench_bank_run(engine->bank, n_frames, out);
-  } else if (engine->network) {
+  if (player->bank) {
+    bench_bank_run(player->bank, n_frames, out);
+  } else if (player->network) {
     for (uint32_t n = 0; n < n_frames; ++n) {
-      (void)network_step_by(engine->network, engine->method.scheme, 1.0);
-      out[n] = (float)engine->network->x[engine->reader];
+      (void)network_step_by(player->network, player->way.scheme, 1.0);
+      out[n] = (float)player->network->x[player->reader];
     }
   } else {
-    const ChainTap tap = {.mass = {engine->reader, engine->reader}, .weight = {1.0f, 0.0f}};
+    const ChainTap tap = {.mass = {player->reader, player->reader}, .weight = {1.0f, 0.0f}};
     float* const outs[] = {out};
-    chain_run(&engine->chain, n_frames, &tap, 1, outs);
+    chain_run(&player->chain, n_frames, &tap, 1, outs);
   }
-  for (uint32_t n = 0; engine->fade < 1.0 && n < n_frames; ++n) {
-    engine->gain *= engine->fade;
-    out[n] = (float)(engine->gain * (double)out[n]);
+  for (uint32_t n = 0; player->fade < 1.0 && n < n_frames; ++n) {
+    player->gain *= player->fade;
+    out[n] = (float)(player->gain * (double)out[n]);
   }
 }
 
-void bench_player_mode(const BenchPlayer* engine, uint32_t k, double* x, double* u) {
-  if (engine->bank) {
-    bench_bank_mode(engine->bank, k, x, u);
+void bench_player_mode(const BenchPlayer* player, uint32_t k, double* x, double* u) {
+  if (player->bank) {
+    bench_bank_mode(player->bank, k, x, u);
     return;
   }
   *x = 0.0;
   *u = 0.0;
-  for (uint32_t i = 0; i < engine->n_masses; ++i) {
-    const double shape = sin(PI * k * (i + 1.0) / (engine->n_masses + 1.0));
-    const Network* const network = engine->network;
-    *x += shape * (network ? network->x[i] : (double)chain_position(&engine->chain, i));
-    *u += shape * (network ? network->v[i] : (double)chain_velocity(&engine->chain, i));
+  for (uint32_t i = 0; i < player->n_masses; ++i) {
+    const double shape = sin(PI * k * (i + 1.0) / (player->n_masses + 1.0));
+    const Network* const network = player->network;
+    *x += shape * (network ? network->x[i] : (double)chain_position(&player->chain, i));
+    *u += shape * (network ? network->v[i] : (double)chain_velocity(&player->chain, i));
   }
+}
+
+double bench_player_noise_db(BenchWay way, TuningTarget wanted, uint32_t n_masses) {
+  BenchPlayer* const coarse = new_player(way, wanted, n_masses, false);
+  BenchPlayer* const exact = new_player(way, wanted, n_masses, true);
+  double noise = 0.0;
+  double sound = 0.0;
+  if (coarse && exact) {
+    const uint32_t n_blocks = (uint32_t)ceil(NOISE_S * wanted.rate_hz / BLOCK);
+    for (uint32_t block = 0; block < n_blocks; ++block) {
+      float heard[BLOCK];
+      float true_to_it[BLOCK];
+      bench_player_run(coarse, BLOCK, heard);
+      bench_player_run(exact, BLOCK, true_to_it);
+      for (uint32_t n = 0; n < BLOCK; ++n) {
+        const double off = (double)heard[n] - (double)true_to_it[n];
+        noise += off * off;
+        sound += (double)true_to_it[n] * (double)true_to_it[n];
+      }
+    }
+  }
+  bench_player_free(coarse);
+  bench_player_free(exact);
+  return sound > 0.0 ? 10.0 * log10(noise / sound) : (double)NAN;
 }

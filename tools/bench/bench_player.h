@@ -1,5 +1,5 @@
 /**
-   A string of a method (tools/bench/bench_way.h) that is plucked and runs.
+   A string made in one of the ways (tools/bench/bench_way.h) that is plucked and runs.
 
    Life: bench_player_new(), run and look, bench_player_free().  Thread: one at a time; running
    does not allocate.
@@ -14,26 +14,27 @@ typedef struct BenchPlayer BenchPlayer;
 /**
    A string of `n_masses`, plucked with a hard pick at 0.13 of its length.
 
-   @return NULL: out of memory, or the method has no such string, or its numbers cannot hold it
+   @return NULL: out of memory, or the way has no such string, or its numbers cannot hold it
 */
-BenchPlayer* bench_player_new(BenchWay method, TradeString string, uint32_t n_masses);
-
-/**
-   The same string as bench_player_new()'s, coefficients rounded as its numbers have them, but in
-   doubles: what is different between the two is the noise of the numbers alone.
-
-   @return NULL, as above, and for networks
-*/
-BenchPlayer* bench_player_new_exact(BenchWay method, TradeString string, uint32_t n_masses);
+BenchPlayer* bench_player_new(BenchWay way, TuningTarget wanted, uint32_t n_masses);
 
 /** NULL is fine. */
-void bench_player_free(BenchPlayer* engine);
+void bench_player_free(BenchPlayer* player);
 
 /** Step it; `out` is overwritten with the displacement at a third of its length, or the sum of the
  * modes. */
-void bench_player_run(BenchPlayer* engine, uint32_t n_frames, float* out);
+void bench_player_run(BenchPlayer* player, uint32_t n_frames, float* out);
 
 /** How far mode `k` is out and how fast it moves, in any units that stay the same. */
-void bench_player_mode(const BenchPlayer* engine, uint32_t k, double* x, double* u);
+void bench_player_mode(const BenchPlayer* player, uint32_t k, double* x, double* u);
+
+/**
+   Play a tenth of a second of a chain in its numbers, and in doubles with the coefficients rounded
+   as its numbers have them: what is different between the two is the noise of the numbers alone.
+
+   @return How much quieter the difference is than the sound [dB], negative; −INFINITY if there is
+   none; NAN if it cannot be had
+*/
+double bench_player_noise_db(BenchWay way, TuningTarget wanted, uint32_t n_masses);
 
 #endif
