@@ -14,7 +14,8 @@ Sources are found by where they lie, so that a new one needs no line here:
     tests/test_*.sh    run as tests too
     tests/fuzz/        the fuzz harnesses, see tests/fuzzing.py
 
-The rest lies in tools/packing.py (installing, packing), tools/cross.py (other machines) and tests/runner.py.
+The rest lies in tools/packing.py (installing, packing), tools/cross.py (other machines), tools/report.py (the paper's
+figures) and tests/runner.py.
 """
 
 import json
