@@ -14,12 +14,14 @@ Sources are found by where they lie, so that a new one needs no line here:
     tests/test_*.sh    run as tests too
     tests/fuzz/        the fuzz harnesses, see tests/fuzzing.py
 
-The rest lies in tools/packing.py (installing, packing), tools/cross.py (other machines) and tests/runner.py.
+The rest lies in tools/packing.py (installing, packing), tools/cross.py (other machines), tools/report.py (the paper's
+figures) and tests/runner.py.
 """
 
 import json
 import os
 import subprocess
+import sys
 
 from tests import fuzzing, memcheck, runner
 from tools import cross, packing
@@ -324,6 +326,11 @@ class DemoContext(Build.BuildContext):
     fun = 'demo'
 
 
+class ReportContext(Build.BuildContext):
+    cmd = 'report'
+    fun = 'report'
+
+
 def test(bld):
     """builds, then runs all tests, or with --only some of them"""
     build(bld)
@@ -346,6 +353,29 @@ def render_demo(bld):
         command = [program, 'render', 'doc/' + tune, bld.bldnode.make_node(wav).path_from(bld.path)]
         if subprocess.call(command, cwd=bld.path.abspath(), env=run_environment(bld)):
             bld.fatal('the demo was not rendered')
+
+
+def report(bld):
+    """builds `hooke`, then draws the paper's figures over what it computes; report DIR: there, and not in build/report"""
+    refuse_late_options(bld)
+    directory = Options.commands.pop(0) if Options.commands else bld.bldnode.make_node('report').path_from(bld.path)
+    if not bld.env.WITH_TOOLS:
+        bld.fatal('there is no program to draw a report with')
+    build_core(bld)
+    build_tools(bld)
+    bld.add_post_fun(lambda bld: draw_report(bld, directory))
+
+
+# By a Python that has what it takes, be it not the one that runs waf.
+def draw_report(bld, directory):
+    for python in [sys.executable, '/usr/bin/python3']:
+        if os.path.exists(python) and not subprocess.call([python, '-c', 'import matplotlib, numpy'],
+                                                          stderr=subprocess.DEVNULL):
+            command = [python, 'tools/report.py', bld.bldnode.make_node('hooke').abspath(), directory]
+            if subprocess.call(command, cwd=bld.path.abspath()):
+                bld.fatal('the report was not made')
+            return
+    bld.fatal('found no python3 with matplotlib and numpy: install python3-matplotlib and python3-numpy')
 
 
 # The built bundle and the specifications are what a host sees, whatever else is installed.

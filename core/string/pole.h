@@ -104,7 +104,7 @@ Pole pole_from_eigenvalue(double rate_hz, double sigma, double mu);
 */
 
 /**
-   The edge of vibrating: to the right of it the poles are a conjugate pair ([MQ09] (27), (37)).
+   The edge of vibrating: to the right of it the poles are a conjugate pair ([MQ09] (27), (38)).
 
    With u³ (4 − u) = 4 (μh)², 0 ≤ u ≤ 2, it is at  σh = u (u − 2)/2.  The poles become real at 0
    below the singular point and real at π above it; from μh = 2 up there is no such pair.
@@ -112,13 +112,13 @@ Pole pole_from_eigenvalue(double rate_hz, double sigma, double mu);
 double pole_edge_vibrating(double mu_h);
 
 /**
-   The edge of turning, where the poles' sum is 0:  σh = 1 − √(3 − (μh)²)  ([MQ09] (34), (38)).
+   The edge of turning, where the poles' sum is 0:  σh = 1 − √(3 − (μh)²)  ([MQ09] (34), (39)).
    Below the singular point real poles begin to flip here; above it a pair turns past π/2.
 */
 double pole_edge_turning(double mu_h);
 
 /** The edge of stability, a + 2g = 4:  σh = 2 − √(8 − (μh)²), where that is 0 or less ([MQ09] (33),
- * (39)). */
+ * (36)). */
 double pole_edge_stable(double mu_h);
 
 /** Where the first two edges meet and both poles are 0: γh = 1, μh = √3/2. */

@@ -43,6 +43,21 @@ answer 0 bench start --csv
 heads "rate_hz,harp_ms,harp_bytes,plugin_ms"
 same "$(tail -n +2 log | cut -d , -f 1 | tr '\n' ' ')" "44100 48000 96000 192000 " "rates"
 
+# Every way of 80 masses; what is truer, in doubles and by Truest partials, comes with its price.
+answer 0 bench survey --csv --seconds 0 --masses 80
+heads "f0_hz,inharmonicity,rate_hz,kind,scheme,numbers,partials,corrected,masses,stable,ns_per_frame,share_of_core,pitch_cents,decay_percent,partials_cents,noise_db"
+awk -F, 'NR > 1 && !(NF == 16 && $9 == 80 && $11 > 0 && $12 > 0 && $13 >= 0 && $14 >= 0 && $15 >= 0 && $16 <= 0) { exit 1 }' log ||
+    fail "no likely figures: $(cat log)"
+awk -F, 'NR > 1 { d = $12 / ($11 * $3 * 1e-9) - 1; if (d * d > 1e-8) exit 1 }' log || fail "shares are not time times rate"
+same "$(awk -F, '$1 == 55 && $2 == 0 && $3 == 48000' log | wc -l)" 20 "ways of one string"
+same "$(cut -d , -f 4 log | tail -n +2 | sort -u | tr '\n' ' ')" "bank chain network " "kinds"
+same "$(awk -F, '$1 == 55 && $2 == 0 && $3 == 48000 && $6 == "fixed" { printf "%s %.3g ", $7, $15 }' log)" \
+    "Lumped 19.9 True 1.17 Truest 0.0812 " "errors of 20 partials [cents]"
+same "$(awk -F, 'NR > 1 && $4 == "chain" && $6 == "double" && $8 && !$2 && $16 != "-inf"' log)" "" "noise of doubles"
+same "$(awk -F, 'NR > 1 && !$10 { print $5 }' log | sort -u)" "forward Euler" "what grows"
+answer 0 bench survey --seconds 0
+same "$(grep -c '^\(chain\|network\|bank\), ' log)" 20 "lines of the table"
+
 answer 0 bench --host urn:hooke:strings --csv
 heads "notes,ns_per_frame,share_of_core,start_ms"
 numbers 1 5
@@ -60,6 +75,8 @@ refuse 2 "--masses" bench --masses 1025
 refuse 2 "--masses" bench --masses 0
 refuse 2 "--seconds" bench --seconds nan
 refuse 2 "expected no part" bench loads --host urn:hooke:strings
+"$HOOKE_BIN" bench survey --masses 1024 >log 2>errors
+same "$? $(cat errors)" "1 hooke bench: survey: found nothing to measure, or no memory for it" "too many masses for 55 Hz"
 for what in '' ground ground-flexible-still-1,float,80 ground-flexible-still-1,float,0,9 awake,129,64 awake,1,64x \
     between-flexible-moving-1,fixed,80,64 undamped-flexible-still-1,fixed,80,64 asleep,1; do
     refuse 2 "--one: found '$what'" bench --one "$what"

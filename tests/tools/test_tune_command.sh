@@ -77,6 +77,25 @@ END
     near "$(quantity stiffness_factor)" 57.05 1e-3 'factor of springs at 48 kHz'
 }
 
+# The same answer for machines: all digits of what people are told, and of what the string is made of.
+csv_says_the_same() {
+    answer 0 tune $paper
+    awk '$4 == "vibrates" { print $1, $2, $3 }' log >told
+    spring=$(quantity k)
+    damper=$(quantity Z)
+    answer 0 tune $paper --csv
+    same "$(head -n 1 log)" 'mode,frequency_hz,tau_s,region,omega0,gamma,mass_kg,k,z,z0,k2,all_stable' 'columns'
+    same "$(awk -F, 'NR > 1 { printf "%d %.5f %.7f\n", $1, $2, $3 }' log)" "$(cat told)" 'modes'
+    same "$(cut -d, -f4,7-12 log | tail -n +2 | sort -u)" "vibrates,1,$spring,$damper,0,0,1" 'the string'
+    near "$(sed -n 2p log | cut -d, -f5)" 5293.239300336857 2e-15 omega0
+    near "$(sed -n 6p log | cut -d, -f6)" 7.462857736414484 1e-15 gamma
+    answer 3 tune --freq 440 --tau inf --rate 48000 --masses 60 --csv
+    same "$(cut -d, -f12 log | sort -u | head -n 1)" 0 'stability of 60 masses'
+    answer 0 tune --freq 440 --tau 1 --csv string.scene
+    same "$(head -n 1 log)" 'stiffness_factor,damping_factor' 'columns of a scene'
+    near "$(sed -n 2p log | cut -d, -f1)" 56.036764581261166 1e-12 'factor of springs'
+}
+
 what_is_wrong_is_refused() {
     refuse 2 'found no --freq' tune --tau 1 --masses 5 --rate 6000
     refuse 2 'found no --tau' tune --freq 440 --masses 5 --rate 6000
@@ -106,6 +125,7 @@ for claim in \
     loss_and_stiffness_are_heard \
     what_never_dies_rings_for_ever \
     a_scene_is_tuned \
+    csv_says_the_same \
     what_is_wrong_is_refused \
     help_says_what_is_returned; do
     echo "$claim"

@@ -7,6 +7,7 @@
 #include "tools/bench/bench_load.h"
 #include "tools/bench/bench_scene.h"
 #include "tools/bench/bench_start.h"
+#include "tools/bench/bench_survey.h"
 #include "tools/bench/bench_table.h"
 #include "tools/commands/args.h"
 
@@ -31,11 +32,15 @@ const char bench_help[] =
     "  blocks   a gesture's dearest block of 64 frames, against the mean one when nothing "
     "happens;\n"
     "           and whether a minute of play makes blocks dearer\n"
+    "  survey   error against run time: the pitch, the decay, the partials and the noise of a\n"
+    "           string, made in every way: as a chain in each kind of numbers with each kind of\n"
+    "           partials, under other schemes, as a bank of its modes\n"
     "\n"
     "  --scene WORDS    scenes: only those with all WORDS, with - between: bending, "
     "ground-still-2\n"
     "  --numbers KIND   scenes: only float, double or fixed\n"
-    "  --masses N       scenes: strings of N masses only; blocks: of N at most, instead of 256\n"
+    "  --masses N       scenes, survey: strings of N masses only; blocks: of N at most,\n"
+    "                   instead of 256\n"
     "  --seconds S      a part takes about S seconds, and in any case measures all once\n"
     "  --csv            one part, for machines: a line of column names, then a line for each\n"
     "  --host URI       another instrument: what a frame costs with 0, 1, 8, 32 and 88 notes held\n"
@@ -64,10 +69,8 @@ typedef struct {
 } Part;
 
 static const Part parts[] = {
-    {"scenes", 9.0, bench_table},
-    {"loads", 4.0, bench_load},
-    {"start", 0.0, bench_start},
-    {"blocks", 0.0, bench_block},
+    {"scenes", 9.0, bench_table}, {"loads", 4.0, bench_load},    {"start", 0.0, bench_start},
+    {"blocks", 0.0, bench_block}, {"survey", 4.0, bench_survey},
 };
 enum { N_PARTS = sizeof(parts) / sizeof(parts[0]) };
 

@@ -4,7 +4,6 @@
 #include "tools/commands/render.h"
 #include "tools/commands/tune_command.h"
 #include "tools/formats/score.h"
-#include "tools/report/report.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -25,7 +24,6 @@ static const Command commands[] = {
      render_main},
     {"modes", "say what a scene will sound like, and whether it is stable", modes_help, modes_main},
     {"tune", "find the masses and springs of a pitch and a decay", tune_help, tune_main},
-    {"report", "draw the paper's figures and check its numbers", report_help, report_main},
     {"bench", "measure what strings and instruments cost on this machine", bench_help, bench_main},
 };
 

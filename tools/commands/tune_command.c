@@ -26,15 +26,24 @@ const char tune_help[] =
     "                      0 to 1; 1 by default, as in the paper\n"
     "  --stiffness B       inharmonicity, 0 by default\n"
     "  --mode K            which mode of a scene, from 1, the lowest by default\n"
+    "  --csv               for machines: a line for each mode, or one for a scene, under a line "
+    "of\n"
+    "                      names; the string's own numbers are in every line\n"
     "\n"
     "Returns 0, or 3 if what was found is unstable, and 1 or 2 if nothing was found.\n";
 
-enum { FREQ, TAU, RATE, MASSES, MASS, LOSS, STIFFNESS, MODE };
+enum { FREQ, TAU, RATE, MASSES, MASS, LOSS, STIFFNESS, MODE, CSV };
 
-static const ArgsOption options[] = {
-    [FREQ] = {"--freq", true},           [TAU] = {"--tau", true},   [RATE] = {"--rate", true},
-    [MASSES] = {"--masses", true},       [MASS] = {"--mass", true}, [LOSS] = {"--loss", true},
-    [STIFFNESS] = {"--stiffness", true}, [MODE] = {"--mode", true}, {NULL, false}};
+static const ArgsOption options[] = {[FREQ] = {"--freq", true},
+                                     [TAU] = {"--tau", true},
+                                     [RATE] = {"--rate", true},
+                                     [MASSES] = {"--masses", true},
+                                     [MASS] = {"--mass", true},
+                                     [LOSS] = {"--loss", true},
+                                     [STIFFNESS] = {"--stiffness", true},
+                                     [MODE] = {"--mode", true},
+                                     [CSV] = {"--csv", false},
+                                     {NULL, false}};
 
 enum { MAX_MASSES = 10000000 };
 
@@ -47,6 +56,7 @@ typedef struct {
   long mode;
   const char* string_option; // One that was given and is for strings only
   bool is_mode_given;
+  bool is_csv;
 } Command;
 
 static bool take_tau(Command* self, const char* value) {
@@ -94,6 +104,8 @@ static bool take_option(Command* self, int index) {
   case MODE:
     self->is_mode_given = true;
     return args_whole(args, "--mode", args->value, 1, MAX_MASSES, &self->mode);
+  case CSV:
+    return self->is_csv = true;
   case ARGS_OPERAND:
     return take_operand(self);
   case ARGS_ERROR:
@@ -181,12 +193,36 @@ static void print_mode(unsigned long k, double rate_hz, Pole pole) {
   printf("%5lu %16.5f %14s  %s\n", k, tone.f0_hz, tau, pole_region_text(pole_region(pole)));
 }
 
-static int print_limit(const Command* self, StringCoefs coefs) {
+static bool is_stable(const Command* self, StringCoefs coefs) {
+  return tuning_headroom(coefs, (uint32_t)self->n_masses) >= 0.0;
+}
+
+static void print_table(const Command* self, StringCoefs coefs) {
   const unsigned long limit = tuning_max_masses(&self->target, MAX_MASSES);
-  const bool is_stable = tuning_headroom(coefs, (uint32_t)self->n_masses) >= 0.0;
-  printf("%s with %ld masses; up to %lu masses are stable\n", is_stable ? "stable" : "unstable",
-         self->n_masses, limit);
-  return is_stable ? ARGS_OK : SCENE_UNSTABLE;
+  const uint32_t n = (uint32_t)self->n_masses;
+  print_string(self, coefs);
+  printf("\n mode   frequency [Hz]        tau [s]  region\n");
+  for (uint32_t k = 1; k <= n; ++k) {
+    print_mode(k, self->target.rate_hz, tuning_mode(coefs, n, k));
+  }
+  printf("\n%s with %ld masses; up to %lu masses are stable\n",
+         is_stable(self, coefs) ? "stable" : "unstable", self->n_masses, limit);
+}
+
+static void print_csv(const Command* self, StringCoefs coefs) {
+  const double rate_hz = self->target.rate_hz;
+  const double m = self->mass_kg;
+  const uint32_t n = (uint32_t)self->n_masses;
+  puts("mode,frequency_hz,tau_s,region,omega0,gamma,mass_kg,k,z,z0,k2,all_stable");
+  for (uint32_t k = 1; k <= n; ++k) {
+    const Pole pole = tuning_mode(coefs, n, k);
+    const Tone tone = pole_tone(rate_hz, pole);
+    printf("%lu,%.17g,%.17g,%s,", (unsigned long)k, tone.f0_hz, tone.tau_s,
+           pole_region_text(pole_region(pole)));
+    printf("%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%d\n", rate_hz * sqrt(coefs.k1),
+           rate_hz * coefs.z1, m, m * rate_hz * rate_hz * coefs.k1, m * rate_hz * coefs.z1,
+           m * rate_hz * coefs.z0, m * rate_hz * rate_hz * coefs.k2, is_stable(self, coefs));
+  }
 }
 
 static int finish(const Command* self, int code) {
@@ -197,27 +233,22 @@ static int finish(const Command* self, int code) {
 }
 
 static int tune_string(const Command* self) {
-  const uint32_t n = (uint32_t)self->n_masses;
   StringCoefs coefs;
   if (!is_below_half(self, self->target.rate_hz)) {
     return ARGS_USAGE;
   }
-  const Status status = tuning_solve(&self->target, n, &coefs);
+  const Status status = tuning_solve(&self->target, (uint32_t)self->n_masses, &coefs);
   if (status) {
     return args_fail(&self->args, ARGS_FAILURE, "could not tune: %s", status_text(status));
   }
-  print_string(self, coefs);
-  printf("\n mode   frequency [Hz]        tau [s]  region\n");
-  for (uint32_t k = 1; k <= n; ++k) {
-    print_mode(k, self->target.rate_hz, tuning_mode(coefs, n, k));
-  }
-  putchar('\n');
-  return finish(self, print_limit(self, coefs));
+  (self->is_csv ? print_csv : print_table)(self, coefs);
+  return finish(self, is_stable(self, coefs) ? ARGS_OK : SCENE_UNSTABLE);
 }
 
 static int print_retuning(const Command* self, Retuning retuning) {
-  printf("stiffness_factor %.17g\ndamping_factor %.17g\n", retuning.stiffness_factor,
-         retuning.damping_factor);
+  printf(self->is_csv ? "stiffness_factor,damping_factor\n%.17g,%.17g\n"
+                      : "stiffness_factor %.17g\ndamping_factor %.17g\n",
+         retuning.stiffness_factor, retuning.damping_factor);
   return finish(self, ARGS_OK);
 }
 

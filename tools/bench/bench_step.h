@@ -7,8 +7,8 @@
 
    Thread: any; allocates nothing.
 */
-#ifndef HOOKE_TOOLS_REPORT_TRADE_SCHEME_H
-#define HOOKE_TOOLS_REPORT_TRADE_SCHEME_H
+#ifndef HOOKE_TOOLS_BENCH_BENCH_STEP_H
+#define HOOKE_TOOLS_BENCH_BENCH_STEP_H
 
 #include "core/analysis/network_schemes.h"
 #include "core/string/pole.h"
@@ -18,16 +18,16 @@
 /** (x, u) ← (xx x + xu u, ux x + uu u). */
 typedef struct {
   double xx, xu, ux, uu;
-} TradeStep;
+} BenchStep;
 
 /** What a step of `scheme` does to a mass. */
-TradeStep trade_scheme_step(NetworkScheme scheme, Pole mass);
+BenchStep bench_step_of(NetworkScheme scheme, Pole mass);
 
 /** The pitch and the decay that are heard of a mass; τ < 0 where it grows. */
-Tone trade_scheme_tone(NetworkScheme scheme, double rate_hz, Pole mass);
+Tone bench_step_tone(NetworkScheme scheme, double rate_hz, Pole mass);
 
 /** The larger modulus of the two poles. */
-double trade_scheme_radius(NetworkScheme scheme, Pole mass);
+double bench_step_radius(NetworkScheme scheme, Pole mass);
 
 /**
    Find the mass that sounds as `tone`, by Newton's method on the trace and determinant of the step.
@@ -35,6 +35,6 @@ double trade_scheme_radius(NetworkScheme scheme, Pole mass);
    @param[out] mass  Untouched on failure
    @return false if there is none with g ≥ 0: backward Euler damps by itself
 */
-bool trade_scheme_solve(NetworkScheme scheme, double rate_hz, Tone tone, Pole* mass);
+bool bench_step_solve(NetworkScheme scheme, double rate_hz, Tone tone, Pole* mass);
 
 #endif
