@@ -5,7 +5,7 @@
 #include "tools/commands/render_options.h"
 #include "tools/commands/scene_render.h"
 #include "tools/commands/score_render.h"
-#include "tools/formats/midifile.h"
+#include "tools/formats/smf.h"
 #include "tools/formats/soundfile.h"
 #include "tools/host/host.h"
 #include "tools/host/locate.h"
@@ -16,6 +16,8 @@
 #include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
+
+enum { ERROR_SIZE = 4608 };
 
 static const double USUAL_RATE_HZ = 48000.0;
 
@@ -156,12 +158,23 @@ static int render_with_host(const RenderOptions* self, PlaySong song, const Scor
   return code;
 }
 
+static void say_notes(const RenderOptions* self, const Smf* file) {
+  for (unsigned i = 0; !self->is_quiet && i < SMF_N_NOTES; ++i) {
+    if (*file->note[i]) {
+      args_fail(&self->args, 0, "%s: %s", self->in, file->note[i]);
+    }
+  }
+}
+
 static int render_midi(const RenderOptions* self) {
-  char error[512] = "";
-  MidiFile* const file = midifile_new(self->in, error, sizeof(error));
+  char error[ERROR_SIZE] = "";
+  Smf* const file = smf_new(self->in, error, sizeof(error));
+  if (file) {
+    say_notes(self, file);
+  }
   const int code = file ? render_with_host(self, play_midi(file), NULL)
                         : args_fail(&self->args, ARGS_FAILURE, "%s", error);
-  midifile_free(file);
+  smf_free(file);
   return code;
 }
 

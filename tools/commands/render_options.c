@@ -26,7 +26,7 @@ const char render_help[] =
     "  --preset NAME       start from a preset, by its name or URI; a score's own is not loaded\n"
     "  --set SYMBOL=VALUE  set a control, after the preset and what a score sets; may be repeated\n"
     "  --block N           frames in a block, 256 by default\n"
-    "  --tail S            seconds after the last event; by default until silent, at most 10\n"
+    "  --tail S            seconds after the end; by default until silent, at most 10\n"
     "  --plugin URI        the plugin, by default urn:hooke:strings for a MIDI file and\n"
     "                      urn:hooke:guitar for a score\n"
     "  --list-presets      write the names of the presets, and no sound\n"

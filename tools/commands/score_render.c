@@ -70,5 +70,5 @@ bool score_render_set(const Args* args, const char* path, const Score* score, Ho
 }
 
 PlaySong score_render_song(const Score* score) {
-  return (PlaySong){GUITAR_EVENT_URI, score, score->n_events, event};
+  return (PlaySong){GUITAR_EVENT_URI, score, score->n_events, score->duration_s, event};
 }

@@ -92,7 +92,6 @@ static Scene* make_scene(SceneReader* reader) {
 Scene* scene_new(const char* path, ScenePurpose purpose, char* error, size_t error_size) {
   SceneReader reader = {.network = network_new()};
   Scene* scene = NULL;
-  scene_names_init(&reader.names);
   if (scene_text_init(&reader.text, path, error, error_size) &&
       done(&reader, reader.network ? STATUS_OK : STATUS_NO_MEMORY) && read_lines(&reader) &&
       is_whole(&reader, purpose)) {

@@ -8,7 +8,6 @@
 
 #include "tools/formats/bytes.h"
 
-#include <glib.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -23,13 +22,14 @@ typedef struct {
   uint32_t n_masses; ///< Of a string: the points from `first` on; the two ends follow
 } SceneName;
 
-/** All names; those of one kind of point come in the order of their points. */
+/** All names; all zero is a valid, empty set.  Those of one kind of point come in the order of
+ * their points. */
 typedef struct {
-  GHashTable* index; ///< From a name to its place in `list`, plus 1
-  Bytes list;        ///< SceneName each
+  Bytes list;       ///< SceneName each
+  uint32_t* slots;  ///< A table by hash: a place in `list` plus 1, or 0
+  uint32_t n_slots; ///< A power of 2, or 0
 } SceneNames;
 
-void scene_names_init(SceneNames* names);
 void scene_names_clear(SceneNames* names);
 
 /** @return What `name` stands for, good until the next is added; NULL if nothing */

@@ -27,7 +27,7 @@ typedef struct {
   const float* right;
   size_t next_event;
   uint64_t at;           // [frames]
-  uint64_t song_frames;  // To the last event and with it
+  uint64_t song_frames;  // To its end
   uint64_t end;          // Where to stop at the latest
   uint64_t needed_quiet; // Silent frames that end it
   uint64_t quiet;        // Silent frames in a row
@@ -143,21 +143,21 @@ static bool play_all(Play* play) {
 
 static void plan_end(Play* play) {
   const PlaySong* const song = play->song;
-  const double last_s = song->n_events ? song->event(song->song, song->n_events - 1).time_s : 0.0;
   const bool has_tail = play->how->tail_s >= 0;
   const double tail_s = has_tail ? play->how->tail_s : PLAY_MAX_TAIL_S;
-  play->song_frames = to_frames(last_s, play->how->rate_hz) + 1;
+  play->song_frames = to_frames(song->duration_s, play->how->rate_hz);
   play->end = play->song_frames + to_frames(tail_s, play->how->rate_hz);
+  play->end += play->end == 0;
   play->needed_quiet = has_tail ? UINT64_MAX : to_frames(SILENCE_S, play->how->rate_hz);
 }
 
 static PlayEvent midi_event(const void* song, size_t i) {
-  const MidiEvent* const event = &((const MidiFile*)song)->events[i];
+  const SmfEvent* const event = &((const Smf*)song)->events[i];
   return (PlayEvent){event->time_s, event->bytes, event->size};
 }
 
-PlaySong play_midi(const MidiFile* file) {
-  return (PlaySong){LV2_MIDI__MidiEvent, file, file->n_events, midi_event};
+PlaySong play_midi(const Smf* file) {
+  return (PlaySong){LV2_MIDI__MidiEvent, file, file->n_events, file->duration_s, midi_event};
 }
 
 bool play(Host* host,

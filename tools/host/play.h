@@ -4,7 +4,7 @@
 #ifndef HOOKE_TOOLS_HOST_PLAY_H
 #define HOOKE_TOOLS_HOST_PLAY_H
 
-#include "tools/formats/midifile.h"
+#include "tools/formats/smf.h"
 #include "tools/formats/soundfile.h"
 #include "tools/host/host.h"
 
@@ -24,14 +24,15 @@ typedef struct {
   const char* type_uri; ///< Of the atoms that are sent
   const void* song;
   size_t n_events;
+  double duration_s;                              ///< To its end [s], not before the last event
   PlayEvent (*event)(const void* song, size_t i); ///< The i-th in order of time
 } PlaySong;
 
 /** How to play. */
 typedef struct {
-  double rate_hz; ///< The host's [Hz]
-  uint32_t block; ///< Frames in a run [frames], 1 … max_block of the host
-  double tail_s; ///< Sound after the last event [s]; below 0: until silent, at most PLAY_MAX_TAIL_S
+  double rate_hz;      ///< The host's [Hz]
+  uint32_t block;      ///< Frames in a run [frames], 1 … max_block of the host
+  double tail_s;       ///< Sound after the end [s]; below 0: until silent, at most PLAY_MAX_TAIL_S
   bool shows_progress; ///< On stderr
 } PlayHow;
 
@@ -43,7 +44,7 @@ typedef struct {
 } PlayResult;
 
 /** @return The file as play() takes it, good as long as the file is */
-PlaySong play_midi(const MidiFile* file);
+PlaySong play_midi(const Smf* file);
 
 /** The longest tail when none is asked for [s]. */
 #define PLAY_MAX_TAIL_S 10.0
@@ -51,8 +52,10 @@ PlaySong play_midi(const MidiFile* file);
 /**
    Play a song, each event on the frame nearest to its time.
 
-   Silence is a quarter of a second below −100 dBFS after the last event; the frame where it is
-   full is the last one. Nothing here depends on the block but the plugin.
+   The sound is as long as the song and its tail, but has one frame at least. Silence is a quarter
+   of a second below −100 dBFS after the song's end; the frame where it is full is the last one.
+   What a song has at its very end is only heard in a tail. Nothing here depends on the block but
+   the plugin.
    @param sound        Where the sound goes
    @param[out] result  Undefined on failure
    @param[out] error   One line, on failure
