@@ -142,7 +142,27 @@ broken_songs_are_refused() {
     refuse 1 'Is a directory' render . out/x.wav
 }
 
+options_may_stand_anywhere_before_two_dashes() {
+    render --tail 0 --rate=8000 note.mid out/a.wav && render note.mid out/b.wav --tail=0 --rate 8000 &&
+        render note.mid --tail 0 --rate 8000 -- out/c.wav || return
+    cmp out/a.wav out/b.wav && cmp out/a.wav out/c.wav || fail 'the order of words changes the sound'
+    POSIXLY_CORRECT=1 render note.mid out/d.wav --tail 0 --rate 8000 || return
+    cmp out/a.wav out/d.wav || fail 'POSIXLY_CORRECT changes the sound'
+    cp note.mid ./--rate
+    render --tail 0 --rate 8000 -- --rate out/e.wav || return
+    cmp out/a.wav out/e.wav || fail 'behind -- there is no file --rate'
+    refuse 2 "expected .wav, .flac or .ogg" render note.mid -- --quiet
+}
+
 broken_commands_are_refused() {
+    refuse 2 "no option '-q'" render -q note.mid out/x.wav
+    refuse 2 "no option '-xyz'" render note.mid out/x.wav -xyz
+    refuse 2 "no option '--no=1'" render --no=1 note.mid out/x.wav
+    refuse 2 "hooke render: --quiet takes no value" render note.mid out/x.wav --quiet=
+    refuse 2 "hooke render: --set needs a value" render note.mid out/x.wav --set
+    refuse 2 "no option '--loud'; try hooke help" modes --loud x.scene
+    refuse 2 "no option '--loud'; try hooke help" tune --loud
+    refuse 2 "no option '--loud'; try hooke help" bench --loud
     refuse 2 'found no command'
     refuse 2 "found 'play', expected a command" play
     refuse 2 "found 'play', expected a command" help play
@@ -240,6 +260,7 @@ for claim in \
     the_length_is_the_songs \
     blemishes_are_played_with_a_line_for_each_kind \
     broken_songs_are_refused \
+    options_may_stand_anywhere_before_two_dashes \
     broken_commands_are_refused \
     settings_out_of_range_are_refused \
     places_that_cannot_be_are_refused \

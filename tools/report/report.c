@@ -30,7 +30,7 @@ const char report_help[] =
     "Run time is measured, in some ten seconds, and is a little different every time.\n"
     "It needs gnuplot.  Files of these names are replaced.\n";
 
-static const ArgsOption options[] = {{0}};
+static const struct option options[] = {{0}};
 
 /* One size, font and set of colours for all: Okabe and Ito's, which the colour-blind can tell
  * apart, and tints of them. */
@@ -152,7 +152,7 @@ static int make(const Args* args, const char* path) {
 
 int report_main(int argc, char** argv) {
   (void)argc;
-  Args args = {.command = "hooke report", .words = argv + 1, .options = options};
+  Args args = {.command = "hooke report", .argc = argc, .argv = argv, .options = options};
   const char* path = NULL;
   for (int found = args_next(&args); found != ARGS_END; found = args_next(&args)) {
     if (found == ARGS_ERROR) {
