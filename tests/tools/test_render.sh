@@ -111,6 +111,12 @@ the_length_is_the_songs() {
     grep -q ': 3600\.00 s' log || fail "an hour: '$(cat log)'"
 }
 
+# 20 hours are 27.6 GB, which is known before the first frame.
+a_wav_file_too_long_is_refused_at_once() {
+    printf 'MThd\0\0\0\006\0\0\0\001\001\340MTrk\0\0\0\013\240\372\340\000\220\074\144\0\377\057\0' >day.mid
+    refuse 1 'out/x.wav: found a length of 72000 s, expected a WAV file below 4 GiB' render day.mid out/x.wav
+}
+
 blemishes_are_played_with_a_line_for_each_kind() {
     printf 'a letterMThd\0\0\0\006\0\0\0\003\001\340MTrk\0\0\0\014\0\220\074\377\203\140\370\0\074\0\0\370' >odd.mid
     render --tail 0 odd.mid out/a.wav || return
@@ -197,6 +203,8 @@ settings_out_of_range_are_refused() {
 places_that_cannot_be_are_refused() {
     mkdir -p out/dir.wav
     refuse 1 'out/dir.wav: Is a directory' render note.mid out/dir.wav
+    long=$(printf '%0250d' 0).wav
+    refuse 1 "$long: File name too long" render note.mid "out/$long"
     refuse 1 'nowhere/x.wav: No such file or directory' render note.mid nowhere/x.wav
     refuse 1 'plugin <urn:nobody:plays>: not found' render --plugin urn:nobody:plays note.mid out/x.wav
     refuse 1 "found no URI" render --plugin nobody note.mid out/x.wav
@@ -258,6 +266,7 @@ for claim in \
     settings_are_heard \
     presets_are_listed_and_found \
     the_length_is_the_songs \
+    a_wav_file_too_long_is_refused_at_once \
     blemishes_are_played_with_a_line_for_each_kind \
     broken_songs_are_refused \
     options_may_stand_anywhere_before_two_dashes \
