@@ -340,8 +340,7 @@ static void a_song_without_notes_is_empty(void** state) {
   smf_free(smf);
 }
 
-/* 2^21 quarters of a tick each, at 120: 12.1 days. At 480 ticks 0x0b53e7f8 + 8 are 54.9 hours, and
- * 4 times 0x0141eb00 ticks are 24.4 hours; one of them is 6.1. */
+/* 0x0141eb00 ticks, of which there are 960 in a second, are 6.1 hours, and 0x0fffffff 77.7. */
 static void a_song_of_hours_is_read_and_one_of_days_refused(void** state) {
   (void)state;
   Bytes bytes = song_new(0, 1, SONG_TICKS);
@@ -487,7 +486,8 @@ static void a_track_cut_off_is_played_up_to_there(void** state) {
       assert_refused(&cut, "expected");
       continue;
     }
-    const size_t n_whole = size - HEAD < N_EVENTS * EVENT ? (size - HEAD) / EVENT : N_EVENTS;
+    const size_t n_whole =
+        size - HEAD < (size_t)N_EVENTS * EVENT ? (size - HEAD) / EVENT : N_EVENTS;
     Smf* const smf = read_good(&cut);
     assert_int_equal(smf->n_events, n_whole);
     assert_duration(smf, 0.5 * (double)n_whole);
@@ -498,12 +498,38 @@ static void a_track_cut_off_is_played_up_to_there(void** state) {
   bytes_clear(&bytes);
 }
 
+/* The tracks that are not there any more are no other matter. */
+static void of_a_file_cut_off_nothing_else_is_said(void** state) {
+  (void)state;
+  Bytes bytes = two_tracks(1, 3);
+  --bytes.size;
+  Smf* const smf = read_good(&bytes);
+  assert_int_equal(smf->n_events, 2);
+  assert_notes(smf, 1U << SMF_CUT);
+  smf_free(smf);
+}
+
+static void a_track_has_no_status_from_the_one_before(void** state) {
+  (void)state;
+  Bytes bytes = song_new(1, 2, SONG_TICKS);
+  SONG_ADD_TRACK(&bytes, SONG_NOTE SONG_END);
+  SONG_ADD_TRACK(&bytes, "\x00\x3c\x00" SONG_END);
+  assert_refused(&bytes, "track 2, byte 39: found 0x3c, expected a status byte");
+  bytes = song_new(1, 2, SONG_TICKS);
+  SONG_ADD_TRACK(&bytes, SONG_NOTE SONG_END);
+  SONG_ADD_TRACK(&bytes, SONG_NOTE "\x00\x3c\x00" SONG_END);
+  Smf* const smf = read_good(&bytes);
+  assert_notes(smf, 0);
+  smf_free(smf);
+}
+
 /* The second track is found behind the end of the first. */
 static void a_length_that_is_wrong_costs_no_note(void** state) {
   (void)state;
   Bytes clean_bytes = two_tracks(1, 2);
   Smf* const clean = read_good(&clean_bytes);
   Bytes bytes = two_tracks(1, 2);
+  assert_non_null(bytes.data);
   memset(bytes.data + 18, 0xFF, 4);
   Smf* const smf = read_good(&bytes);
   assert_same_song(smf, clean);
@@ -722,6 +748,8 @@ int main(void) {
       cmocka_unit_test(what_the_header_says_of_tracks_does_not_count),
       cmocka_unit_test(up_to_128_bytes_before_the_header_are_skipped),
       cmocka_unit_test(a_track_cut_off_is_played_up_to_there),
+      cmocka_unit_test(of_a_file_cut_off_nothing_else_is_said),
+      cmocka_unit_test(a_track_has_no_status_from_the_one_before),
       cmocka_unit_test(a_length_that_is_wrong_costs_no_note),
       cmocka_unit_test(another_kind_of_file_is_refused),
       cmocka_unit_test(another_kind_of_song_is_refused),

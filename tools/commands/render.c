@@ -476,7 +476,7 @@ run_scene(void* self, uint64_t at, uint32_t n, float* frames, char error[PLAY_ER
   scene_player_run(scenery->player, out, n);
   uint32_t i = 0;
   for (; i < n && isfinite((float)out[i]); ++i) {
-    frames[2 * i] = frames[2 * i + 1] = (float)out[i];
+    frames[2 * (size_t)i] = frames[2 * (size_t)i + 1] = (float)out[i];
   }
   if (i == n && scene_player_settle(scenery->player)) {
     return true;

@@ -92,11 +92,12 @@ static bool is_named_note(const char* word, double* note) {
   if (!letter) {
     return false;
   }
+  const long key = (letter - letters) / 2;
   const int step = word[1] == '#' ? 1 : word[1] == 'b' ? -1 : 0;
   if (!text_is_number(word + (step ? 2 : 1), &OCTAVE, &octave)) {
     return false;
   }
-  *note = 12.0 * (octave + 1.0) + semitones[(letter - letters) / 2] + step;
+  *note = 12.0 * (octave + 1.0) + semitones[key] + step;
   return *note >= KEY.min && *note <= KEY.max;
 }
 
@@ -209,19 +210,19 @@ enum {
 
 static const struct {
   const char* word;
-  unsigned alone;         // Of these there is one at most
   const TextRange* range; // Of its value; NULL: a length or none
+  unsigned alone;         // Of these there is one at most
   bool has_length;
 } options[N_OPTIONS] = {
-    [OPTION_FORCE] = {"force", BIT_FORCE, &FORCE, false},
-    [OPTION_AT] = {"at", BIT_AT, &PLACE, false},
-    [OPTION_HARDNESS] = {"hardness", BITS_FINGER, &HARDNESS, false},
-    [OPTION_WIDTH] = {"width", BITS_FINGER, &WIDTH, false},
-    [OPTION_DOWN] = {"down", BITS_STROKE, NULL, false},
-    [OPTION_UP] = {"up", BITS_STROKE, NULL, false},
-    [OPTION_RATE] = {"rate", BIT_RATE, &RATE, false},
-    [OPTION_FOR] = {"for", BIT_FOR, NULL, true},
-    [OPTION_SPREAD] = {"spread", BIT_SPREAD, NULL, true},
+    [OPTION_FORCE] = {"force", &FORCE, BIT_FORCE, false},
+    [OPTION_AT] = {"at", &PLACE, BIT_AT, false},
+    [OPTION_HARDNESS] = {"hardness", &HARDNESS, BITS_FINGER, false},
+    [OPTION_WIDTH] = {"width", &WIDTH, BITS_FINGER, false},
+    [OPTION_DOWN] = {"down", NULL, BITS_STROKE, false},
+    [OPTION_UP] = {"up", NULL, BITS_STROKE, false},
+    [OPTION_RATE] = {"rate", &RATE, BIT_RATE, false},
+    [OPTION_FOR] = {"for", NULL, BIT_FOR, true},
+    [OPTION_SPREAD] = {"spread", NULL, BIT_SPREAD, true},
 };
 
 /* What follows the verb of an event. */
@@ -789,12 +790,13 @@ static bool place_all(Reader* reader, Score* score) {
   Place* const places = calloc(reader->moments.size / sizeof(Moment) + 1, sizeof(*places));
   Entry* const entries = calloc(n, sizeof(*entries));
   score->events = calloc(n, sizeof(*score->events));
-  bool is_ok = (places && entries && score->events && score_tempo_finish(&reader->tempo)) ||
-               text_fail_memory(&reader->text);
-  is_ok = is_ok && place_moments(reader, places) && place_events(reader, places, entries, n);
-  if (is_ok) {
+  bool is_ok = false;
+  if (!places || !entries || !score->events || !score_tempo_finish(&reader->tempo)) {
+    (void)text_fail_memory(&reader->text);
+  } else if (place_moments(reader, places) && place_events(reader, places, entries, n)) {
     qsort(entries, n, sizeof(*entries), compare);
     keep_what_acts(score, entries, n);
+    is_ok = true;
   }
   free(places);
   free(entries);

@@ -2,6 +2,7 @@
 
 #include "tools/formats/bytes.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -518,6 +519,7 @@ static void write_notes(const Reader* self, Smf* smf) {
 static Smf* make(Reader* self) {
   Item* const items = (Item*)(void*)self->items.data;
   const size_t n_items = self->items.size / sizeof(Item);
+  assert(n_items > 0); // The end of a track is one
   Smf* const smf = calloc(1, sizeof(Smf));
   if (smf) {
     smf->events = calloc(n_items, sizeof(SmfEvent));

@@ -105,10 +105,12 @@ bool play(const PlaySource* source, SoundFile* sound, PlayResult* result) {
   self.end = source->n_frames + source->n_tail;
   self.end += self.end == 0;
   self.frames = calloc(source->block, 2 * sizeof(float));
-  bool is_ok = (self.frames || fail(result->error, "out of memory")) &&
-               (soundfile_has_room(sound, source->n_frames) ||
-                fail(result->error, "found a length of %.0f s, expected a WAV file below 4 GiB",
-                     (double)source->n_frames / source->rate_hz));
+  if (!self.frames) {
+    return fail(result->error, "out of memory");
+  }
+  bool is_ok = soundfile_has_room(sound, source->n_frames) ||
+               fail(result->error, "found a length of %.0f s, expected a WAV file below 4 GiB",
+                    (double)source->n_frames / source->rate_hz);
   while (is_ok && !self.is_done) {
     is_ok = is_interrupted() ? fail(result->error, "interrupted") : play_block(&self, sound);
     show_progress(&self);
@@ -147,8 +149,8 @@ run_song(void* self, uint64_t at, uint32_t n, float* frames, char error[PLAY_ERR
     return fail(error, "%s", host_error(song->host));
   }
   for (uint32_t i = 0; i < n; ++i) {
-    frames[2 * i] = left[i];
-    frames[2 * i + 1] = right[i];
+    frames[2 * (size_t)i] = left[i];
+    frames[2 * (size_t)i + 1] = right[i];
   }
   return true;
 }
