@@ -127,7 +127,7 @@ def choose_parts(conf):
 def check_libraries(conf):
     for lib in ['m', 'dl', 'pthread']:
         conf.check_cc(lib=lib, uselib_store=lib.upper(), mandatory=lib == 'm')
-    for_tools = ['lilv-0', 'sndfile', 'smf', 'lapack'] if conf.env.WITH_TOOLS else []
+    for_tools = ['lilv-0', 'sndfile', 'lapack'] if conf.env.WITH_TOOLS else []
     for package in ['lv2'] + for_tools + (['cmocka'] if conf.env.WITH_TESTS else []):
         check_package(conf, package)
     if conf.options.cross and not conf.env.CROSS_SYSTEM:
@@ -252,7 +252,7 @@ def library_ending(bld):
 
 def build_tools(bld):
     defines = ['HOOKE_VERSION="%s"' % VERSION, 'HOOKE_LV2DIR="%s"' % bld.env.LV2DIR]
-    use = 'hooke_parts hooke_analysis hooke_core LILV SNDFILE SMF LV2 M DL PTHREAD'
+    use = 'hooke_parts hooke_analysis hooke_core LILV SNDFILE LV2 M DL PTHREAD'
     library(bld, 'hooke_tools', bld.path.ant_glob('tools/*/*.c', excl=['tools/commands/main.c', 'tools/make/*.c']), use=use, defines=defines)
     for node in bld.path.ant_glob('tools/commands/main.c'):
         bld.program(source=[node], target='hooke', name='hooke_program', use='hooke_tools ' + use, defines=defines)
@@ -260,7 +260,7 @@ def build_tools(bld):
 
 
 def build_tests(bld):
-    use = 'hooke_parts hooke_tools hooke_analysis hooke_core CMOCKA LILV SNDFILE SMF LAPACK LV2 M DL PTHREAD'
+    use = 'hooke_parts hooke_tools hooke_analysis hooke_core CMOCKA LILV SNDFILE LAPACK LV2 M DL PTHREAD'
     helpers = bld.path.ant_glob('tests/support/*.c', excl=['tests/*/test_*.c', 'tests/*/plant_*.c'])
     library(bld, 'hooke_helpers', helpers, use=use + ' HELPERS')
     env = bld.env.derive()

@@ -6,8 +6,8 @@ fuzz_NAME looks for more with libFuzzer, which only clang has, in code that ASan
 
 import os
 
-# What a harness needs of tools/; the rest of it needs libraries that are none of ours to fuzz.
-TOOLS = ['tools/formats/%s.c' % name for name in ['bytes', 'midifile', 'midiclean', 'midiwalk', 'scene*', 'score*']]
+# What a harness needs of tools/ and of the analysis; the rest of it needs libraries that are none of ours to fuzz.
+TOOLS = ['tools/formats/%s.c' % name for name in ['bytes', 'text', 'smf', 'scene*', 'score*']] + ['core/analysis/network*.c']
 
 FLAGS = ['-std=c11', '-O1', '-g', '-w', '-fno-omit-frame-pointer', '-fno-sanitize-recover=all', '-fno-math-errno',
          '-fno-trapping-math', '-ffp-contract=off']
@@ -74,10 +74,10 @@ def build(bld, analysis, avx2):
 
     library('avx2', for_avx2, cflags=avx2, defines=defines)
     library('core', core, defines=defines, use='fuzz/avx2 M')
-    library('rest', rest, use='fuzz/core LV2 SMF M')
+    library('rest', rest, use='fuzz/core LV2 M')
     for name in harnesses(bld):
         bld.program(source='tests/fuzz/%s.c' % name, target='fuzz/' + name, install_path=None, env=environment(bld),
-                    use='fuzz/rest fuzz/core fuzz/avx2 LV2 SMF M DL PTHREAD')
+                    use='fuzz/rest fuzz/core fuzz/avx2 LV2 M DL PTHREAD')
 
 
 def environment(bld):

@@ -9,7 +9,7 @@ set -eu
 
 triple=$1
 target=$2
-packages='libc6-dev libcmocka-dev liblapack-dev liblilv-dev libsmf-dev libsndfile1-dev lv2-dev'
+packages='libc6-dev libcmocka-dev liblapack-dev liblilv-dev libsndfile1-dev lv2-dev'
 
 give_up() {
   printf 'fetch_system: %s\n' "$*" >&2

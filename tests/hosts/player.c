@@ -7,7 +7,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "tests/hosts/jack.h"
-#include "tools/formats/midifile.h"
+#include "tools/formats/smf.h"
 #include "tools/formats/soundfile.h"
 
 #include <dlfcn.h>
@@ -26,7 +26,7 @@ typedef struct {
   JackClient* client;
   JackPort* out;
   JackPort* in[SIDES];
-  const MidiFile* song;
+  const Smf* song;
   size_t n_sent;
   double rate_hz;
   float* frames;
@@ -67,7 +67,7 @@ int jack_find(Jack* jack) {
 
 static void send(Player* self, void* buffer, uint32_t n_frames) {
   for (; self->n_sent < self->song->n_events; ++self->n_sent) {
-    const MidiEvent* const event = &self->song->events[self->n_sent];
+    const SmfEvent* const event = &self->song->events[self->n_sent];
     const size_t frame = (size_t)llround(event->time_s * self->rate_hz);
     if (frame >= self->at + n_frames) {
       return;
@@ -183,7 +183,7 @@ int main(int argc, char** argv) {
   if (argc < 5 || jack_find(&self.jack)) {
     return die("expected a client, a song, a sound file, seconds, and JACK");
   }
-  self.song = midifile_new(argv[2], error, sizeof(error));
+  self.song = smf_new(argv[2], error, sizeof(error));
   if (!self.song) {
     return die(error);
   }

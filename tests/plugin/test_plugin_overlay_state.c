@@ -1,4 +1,5 @@
 /* What a program change has set is kept in the state, whatever hosts do with that. */
+#include "tests/support/host_state.h"
 #include "tests/support/programs.h"
 
 #include "plugin/ports.h"

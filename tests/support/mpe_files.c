@@ -1,7 +1,7 @@
 #include "tests/support/mpe_files.h"
 
 #include "tests/support/scale_host.h"
-#include "tools/formats/midifile.h"
+#include "tools/formats/smf.h"
 
 #include <sndfile.h>
 
@@ -27,9 +27,9 @@ Host* mpe_open(void) {
   return host;
 }
 
-static void queue(Host* host, const MidiFile* file) {
+static void queue(Host* host, const Smf* file) {
   for (size_t i = 0; i < file->n_events; ++i) {
-    const MidiEvent* const event = &file->events[i];
+    const SmfEvent* const event = &file->events[i];
     const uint32_t frame = (uint32_t)lround(event->time_s * MPE_RATE);
     assert_true(host_midi(host, frame, event->bytes, event->size));
   }
@@ -39,14 +39,14 @@ Sound mpe_play(Host* host, const char* name, double seconds, uint32_t block) {
   char path[PATH_SIZE];
   char error[1024] = "";
   find(path, name);
-  MidiFile* const file = midifile_new(path, error, sizeof(error));
+  Smf* const file = smf_new(path, error, sizeof(error));
   if (!file) {
     fail_msg("%s", error);
   }
   Sound sound = sound_new((size_t)(seconds * MPE_RATE));
   strings_restart(host);
   queue(host, file);
-  midifile_free(file);
+  smf_free(file);
   strings_run(host, &sound, 0, sound.n_frames, block);
   return sound;
 }

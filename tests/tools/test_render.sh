@@ -93,18 +93,82 @@ presets_are_listed_and_found() {
     refuse 2 "no preset named 'Nobody's'" render --preset "Nobody's" note.mid out/b.wav
 }
 
+# Eight quarters at 120, of which the first has the only note; two patterns of 1.0 and 0.5 s; 1,000 ticks at 25 frames
+# of 40; and a note with a second of silence, an hour later.
+the_length_is_the_songs() {
+    printf 'MThd\0\0\0\006\0\0\0\001\001\340MTrk\0\0\0\015\0\220\074\144\203\140\074\0\232\040\377\057\0' >eight.mid
+    {
+        printf 'MThd\0\0\0\006\0\002\0\002\001\340'
+        printf 'MTrk\0\0\0\011\0\220\074\144\207\100\377\057\0MTrk\0\0\0\011\0\220\074\144\203\140\377\057\0'
+    } >patterns.mid
+    printf 'MThd\0\0\0\006\0\0\0\001\347\050MTrk\0\0\0\011\0\220\074\144\207\150\377\057\0' >frames.mid
+    for song in eight:4000 patterns:1500 frames:1000; do
+        render --tail 0 --rate 8000 --bits 16 "${song%:*}.mid" out/a.wav || return
+        same "$(($(size out/a.wav) - 44))" $((${song#*:} * 32)) "bytes of sound of ${song%:*}.mid"
+    done
+    printf 'MThd\0\0\0\006\0\0\0\001\001\340MTrk\0\0\0\013\201\322\370\000\220\074\144\0\377\057\0' >long.mid
+    render --tail 0 --rate 4000 long.mid out/a.ogg || return
+    grep -q ': 3600\.00 s' log || fail "an hour: '$(cat log)'"
+}
+
+# 20 hours are 27.6 GB, which is known before the first frame.
+a_wav_file_too_long_is_refused_at_once() {
+    printf 'MThd\0\0\0\006\0\0\0\001\001\340MTrk\0\0\0\013\240\372\340\000\220\074\144\0\377\057\0' >day.mid
+    refuse 1 'out/x.wav: found a length of 72000 s, expected a WAV file below 4 GiB' render day.mid out/x.wav
+}
+
+blemishes_are_played_with_a_line_for_each_kind() {
+    printf 'a letterMThd\0\0\0\006\0\0\0\003\001\340MTrk\0\0\0\014\0\220\074\377\203\140\370\0\074\0\0\370' >odd.mid
+    render --tail 0 odd.mid out/a.wav || return
+    while read -r line; do
+        grep -qF "$line" errors || fail "'$(cat errors)' does not say '$line'"
+    done <<'END'
+hooke render: odd.mid: byte 0: found other data before MThd, skipped it
+hooke render: odd.mid: byte 18: found another number of tracks than there are, played all of them
+hooke render: odd.mid: track 1, byte 42: found no End of Track, ended the track with its last event
+hooke render: odd.mid: track 1, byte 33: found a data byte over 0x7f, took it for 0x7f
+hooke render: odd.mid: track 1, byte 36: found a real-time byte in a track, left it out; 2 times in all
+END
+    same "$(wc -l <errors)" 5 'lines about odd.mid'
+    render --tail 0 --quiet odd.mid out/b.wav || return
+    test ! -s errors || fail "--quiet, and yet '$(cat errors)'"
+    printf 'MThd\0\0\0\006\0\0\0\001\001\340MTrk\0\0\0\014\0\220\074\177\203\140\074\0\0\377\057\0' >even.mid
+    render --tail 0 even.mid out/c.wav || return
+    cmp out/a.wav out/b.wav && cmp out/a.wav out/c.wav || fail "odd.mid and even.mid do not sound the same"
+}
+
 broken_songs_are_refused() {
     : >empty.mid
     echo 'This is a letter and no song.' >letter.mid
-    head -c 30 note.mid >short.mid
+    head -c 20 note.mid >short.mid
     refuse 1 'nosuch.mid: No such file or directory' render nosuch.mid out/x.wav
     refuse 1 'empty.mid: byte 0: found an empty file' render empty.mid out/x.wav
     refuse 1 'letter.mid: byte 0: found no MThd, expected a Standard MIDI File' render letter.mid out/x.wav
-    refuse 1 'short.mid: track 1, byte 18: found a chunk of 12 bytes' render short.mid out/x.wav
+    refuse 1 'short.mid: byte 14: found no track, expected one or more' render short.mid out/x.wav
     refuse 1 'Is a directory' render . out/x.wav
 }
 
+options_may_stand_anywhere_before_two_dashes() {
+    render --tail 0 --rate=8000 note.mid out/a.wav && render note.mid out/b.wav --tail=0 --rate 8000 &&
+        render note.mid --tail 0 --rate 8000 -- out/c.wav || return
+    cmp out/a.wav out/b.wav && cmp out/a.wav out/c.wav || fail 'the order of words changes the sound'
+    POSIXLY_CORRECT=1 render note.mid out/d.wav --tail 0 --rate 8000 || return
+    cmp out/a.wav out/d.wav || fail 'POSIXLY_CORRECT changes the sound'
+    cp note.mid ./--rate
+    render --tail 0 --rate 8000 -- --rate out/e.wav || return
+    cmp out/a.wav out/e.wav || fail 'behind -- there is no file --rate'
+    refuse 2 "expected .wav, .flac or .ogg" render note.mid -- --quiet
+}
+
 broken_commands_are_refused() {
+    refuse 2 "no option '-q'" render -q note.mid out/x.wav
+    refuse 2 "no option '-xyz'" render note.mid out/x.wav -xyz
+    refuse 2 "no option '--no=1'" render --no=1 note.mid out/x.wav
+    refuse 2 "hooke render: --quiet takes no value" render note.mid out/x.wav --quiet=
+    refuse 2 "hooke render: --set needs a value" render note.mid out/x.wav --set
+    refuse 2 "no option '--loud'; try hooke help" modes --loud x.scene
+    refuse 2 "no option '--loud'; try hooke help" tune --loud
+    refuse 2 "no option '--loud'; try hooke help" bench --loud
     refuse 2 'found no command'
     refuse 2 "found 'play', expected a command" play
     refuse 2 "found 'play', expected a command" help play
@@ -139,6 +203,8 @@ settings_out_of_range_are_refused() {
 places_that_cannot_be_are_refused() {
     mkdir -p out/dir.wav
     refuse 1 'out/dir.wav: Is a directory' render note.mid out/dir.wav
+    long=$(printf '%0250d' 0).wav
+    refuse 1 "$long: File name too long" render note.mid "out/$long"
     refuse 1 'nowhere/x.wav: No such file or directory' render note.mid nowhere/x.wav
     refuse 1 'plugin <urn:nobody:plays>: not found' render --plugin urn:nobody:plays note.mid out/x.wav
     refuse 1 "found no URI" render --plugin nobody note.mid out/x.wav
@@ -199,7 +265,11 @@ for claim in \
     the_tail_is_as_long_as_asked_for \
     settings_are_heard \
     presets_are_listed_and_found \
+    the_length_is_the_songs \
+    a_wav_file_too_long_is_refused_at_once \
+    blemishes_are_played_with_a_line_for_each_kind \
     broken_songs_are_refused \
+    options_may_stand_anywhere_before_two_dashes \
     broken_commands_are_refused \
     settings_out_of_range_are_refused \
     places_that_cannot_be_are_refused \

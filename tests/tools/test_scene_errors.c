@@ -152,6 +152,8 @@ static void a_file_that_cannot_be_read_is_named(void** state) {
   assert_string_equal(error, "/nowhere/x.scene: No such file or directory");
   assert_null(scene_new("/", SCENE_FOR_SOUND, error, sizeof(error)));
   assert_string_equal(error, "/: Is a directory");
+  assert_null(scene_new("/dev/zero", SCENE_FOR_SOUND, error, sizeof(error)));
+  assert_string_equal(error, "/dev/zero: found more than 64 MiB, expected at most that");
 }
 
 /* Letters changed, cut out and doubled: a scene or one line about it, and never a free network. */

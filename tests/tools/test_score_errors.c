@@ -258,6 +258,8 @@ static void a_file_that_cannot_be_read_is_named(void** state) {
   assert_string_equal(error, "/nowhere/x.score: No such file or directory");
   assert_null(score_new("/", error, sizeof(error)));
   assert_string_equal(error, "/: Is a directory");
+  assert_null(score_new("/dev/zero", error, sizeof(error)));
+  assert_string_equal(error, "/dev/zero: found more than 64 MiB, expected at most that");
 }
 
 int main(void) {

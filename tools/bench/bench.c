@@ -56,11 +56,16 @@ const char bench_help[] =
     "A multiply-add counts as one operation where the processor has them, else as two.  Loading,\n"
     "storing and shifting lanes are not counted.\n";
 
-enum { SCENE, NUMBERS, MASSES, SECONDS, CSV, HOST, ONE };
-static const ArgsOption options[] = {[SCENE] = {"--scene", true},   [NUMBERS] = {"--numbers", true},
-                                     [MASSES] = {"--masses", true}, [SECONDS] = {"--seconds", true},
-                                     [CSV] = {"--csv", false},      [HOST] = {"--host", true},
-                                     [ONE] = {"--one", true},       {0}};
+enum { SCENE = ARGS_OPTION, NUMBERS, MASSES, SECONDS, CSV, HOST, ONE };
+
+static const struct option options[] = {{"scene", required_argument, NULL, SCENE},
+                                        {"numbers", required_argument, NULL, NUMBERS},
+                                        {"masses", required_argument, NULL, MASSES},
+                                        {"seconds", required_argument, NULL, SECONDS},
+                                        {"csv", no_argument, NULL, CSV},
+                                        {"host", required_argument, NULL, HOST},
+                                        {"one", required_argument, NULL, ONE},
+                                        {0}};
 
 typedef struct {
   const char* name;
@@ -189,8 +194,7 @@ static int run_host(const Args* args, const Request* request) {
 }
 
 int bench_main(int argc, char** argv) {
-  (void)argc;
-  Args args = {.command = "hooke bench", .words = argv + 1, .options = options};
+  Args args = {.command = "hooke bench", .argc = argc, .argv = argv, .options = options};
   Request request = {.choice = {.seconds = -1.0, .scene = "", .numbers = N_CHAIN_NUMBERS}};
   for (int found = args_next(&args); found != ARGS_END; found = args_next(&args)) {
     if (found == ARGS_ERROR || !read_word(&args, found, &request)) {

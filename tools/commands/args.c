@@ -6,46 +6,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The length of the name if `word` is the option, alone or before "=", else 0. */
-static size_t match(const char* word, const ArgsOption* option) {
-  const size_t length = strlen(option->name);
-  const bool is_same = !strncmp(word, option->name, length);
-  return is_same && (!word[length] || word[length] == '=') ? length : 0;
-}
-
-static int take_option(Args* args, const char* word, int index) {
-  const ArgsOption* const option = &args->options[index];
-  const char* const rest = word + strlen(option->name);
-  if (!option->takes_value) {
-    return *rest ? args_fail(args, ARGS_ERROR, "%s takes no value", option->name) : index;
-  }
-  if (!*rest && !*args->words) {
-    return args_fail(args, ARGS_ERROR, "%s needs a value", option->name);
-  }
-  args->value = *rest ? rest + 1 : *args->words++;
-  return index;
-}
-
 int args_next(Args* args) {
-  if (!args->has_no_more_options && *args->words && !strcmp(*args->words, "--")) {
-    args->has_no_more_options = true;
-    ++args->words;
-  }
-  const char* const word = *args->words;
-  if (!word) {
-    return ARGS_END;
-  }
-  ++args->words;
-  args->value = word;
-  if (args->has_no_more_options || word[0] != '-' || !word[1]) {
+  const char* const word = args->argv[optind];
+  const int found =
+      args->is_over ? -1 : getopt_long(args->argc, args->argv, "-:", args->options, NULL);
+  args->value = optarg;
+  switch (found) {
+  case -1: // Behind "--" there are operands alone
+    args->is_over = true;
+    args->value = optind < args->argc ? args->argv[optind++] : NULL;
+    return args->value ? ARGS_OPERAND : ARGS_END;
+  case 1:
     return ARGS_OPERAND;
+  case ':':
+    return args_fail(args, ARGS_ERROR, "%s needs a value", word);
+  case '?':
+    return optopt < ARGS_OPTION
+               ? args_fail(args, ARGS_ERROR, "no option '%s'; try hooke help", word)
+               : args_fail(args, ARGS_ERROR, "%.*s takes no value", (int)strcspn(word, "="), word);
+  default:
+    return found;
   }
-  for (int i = 0; args->options[i].name; ++i) {
-    if (match(word, &args->options[i])) {
-      return take_option(args, word, i);
-    }
-  }
-  return args_fail(args, ARGS_ERROR, "no option '%s'; try hooke help", word);
 }
 
 bool args_number(
@@ -53,8 +34,8 @@ bool args_number(
   char* end = NULL;
   const double value = strtod(text, &end);
   if (end == text || *end || !isfinite(value) || value < min || value > max) {
-    args_fail(args, 0, "%s: found '%s', expected a number from %g to %g", what, text, min, max);
-    return false;
+    return args_fail(args, false, "%s: found '%s', expected a number from %g to %g", what, text,
+                     min, max);
   }
   *number = value;
   return true;
@@ -66,9 +47,8 @@ bool args_whole(
   const double value = strtod(text, &end);
   if (end == text || *end || !(value >= (double)min && value <= (double)max) ||
       value != floor(value)) {
-    args_fail(args, 0, "%s: found '%s', expected a whole number from %ld to %ld", what, text, min,
-              max);
-    return false;
+    return args_fail(args, false, "%s: found '%s', expected a whole number from %ld to %ld", what,
+                     text, min, max);
   }
   *number = (long)value;
   return true;

@@ -1,36 +1,32 @@
 /**
-   Command lines: options by a table, numbers in their range, one clear line for what is wrong.
+   Command lines: getopt_long() with numbers in their range and one clear line for what is wrong.
 */
 #ifndef HOOKE_TOOLS_COMMANDS_ARGS_H
 #define HOOKE_TOOLS_COMMANDS_ARGS_H
 
+#include <getopt.h>
 #include <stdbool.h>
 
-/** What a program returns to the shell. */
-enum { ARGS_OK = 0, ARGS_FAILURE = 1, ARGS_USAGE = 2 };
+/** What a program returns to the shell; the last is an answer, about a scene or a string. */
+enum { ARGS_OK = 0, ARGS_FAILURE = 1, ARGS_USAGE = 2, ARGS_UNSTABLE = 3 };
 
-/** What args_next() found, when it is not the index of an option. */
-enum { ARGS_END = -1, ARGS_OPERAND = -2, ARGS_ERROR = -3 };
+/** What args_next() found: from ARGS_OPTION on an option. */
+enum { ARGS_END = -1, ARGS_OPERAND = -2, ARGS_ERROR = -3, ARGS_OPTION = 256 };
 
-/** An option. */
+/** A command line on its way through getopt_long(), of which there is one in a process. */
 typedef struct {
-  const char* name; ///< With its dashes
-  bool takes_value; ///< As "--name value" or "--name=value"
-} ArgsOption;
-
-/** A place in a command line. */
-typedef struct {
-  const char* command;       ///< For messages
-  char** words;              ///< What is left of argv, ended by NULL
-  const ArgsOption* options; ///< Ended by an option without a name
-  const char* value;         ///< Of the option or operand found last
-  bool has_no_more_options;  ///< "--" was seen
+  const char* command; ///< For messages
+  int argc;
+  char** argv;
+  const struct option* options; ///< As getopt_long() takes them, with values from ARGS_OPTION on
+  const char* value;            ///< Of the option or operand found last
+  bool is_over;                 ///< There are no more options
 } Args;
 
 /**
    Go to the next word.
 
-   @return The index of an option, ARGS_OPERAND, or ARGS_END; ARGS_ERROR after a line on stderr.
+   @return The value of an option, ARGS_OPERAND, or ARGS_END; ARGS_ERROR after a line on stderr.
 */
 int args_next(Args* args);
 

@@ -1,8 +1,6 @@
 #include "tools/bench/bench.h"
 #include "tools/commands/args.h"
-#include "tools/commands/modes_command.h"
-#include "tools/commands/render.h"
-#include "tools/commands/tune_command.h"
+#include "tools/commands/commands.h"
 #include "tools/formats/score.h"
 
 #include <stdio.h>

@@ -1,7 +1,6 @@
-#include "tools/commands/modes_command.h"
-
 #include "core/analysis/modes.h"
 #include "tools/commands/args.h"
+#include "tools/commands/commands.h"
 #include "tools/formats/scene.h"
 
 #include <math.h>
@@ -33,13 +32,13 @@ const char modes_help[] =
     "\n"
     "Returns 0 if the scene is stable, 3 if it is not, and 1 or 2 if it could not be told.\n";
 
-enum { LOWEST, RATE, CSV, JSON };
+enum { LOWEST = ARGS_OPTION, RATE, CSV, JSON };
 
-static const ArgsOption options[] = {[LOWEST] = {"--lowest", true},
-                                     [RATE] = {"--rate", true},
-                                     [CSV] = {"--csv", false},
-                                     [JSON] = {"--json", false},
-                                     {NULL, false}};
+static const struct option options[] = {{"lowest", required_argument, NULL, LOWEST},
+                                        {"rate", required_argument, NULL, RATE},
+                                        {"csv", no_argument, NULL, CSV},
+                                        {"json", no_argument, NULL, JSON},
+                                        {0}};
 
 typedef struct {
   Args args;
@@ -63,8 +62,7 @@ static bool take_option(Command* self, int index) {
     return self->is_json = true;
   case ARGS_OPERAND:
     if (self->in) {
-      args_fail(args, 0, "found '%s' too, expected one scene", args->value);
-      return false;
+      return args_fail(args, false, "found '%s' too, expected one scene", args->value);
     }
     self->in = args->value;
     return true;
@@ -84,8 +82,7 @@ static bool parse(Command* self) {
     return false;
   }
   if (self->is_csv && self->is_json) {
-    args_fail(&self->args, 0, "found --csv and --json, expected one of them");
-    return false;
+    return args_fail(&self->args, false, "found --csv and --json, expected one of them");
   }
   return true;
 }
@@ -238,7 +235,7 @@ static int print(const Command* self, const Modes* modes) {
   if (fflush(stdout) || ferror(stdout)) {
     return args_fail(&self->args, ARGS_FAILURE, "could not write all of the answer");
   }
-  return modes->is_stable ? ARGS_OK : SCENE_UNSTABLE;
+  return modes->is_stable ? ARGS_OK : ARGS_UNSTABLE;
 }
 
 static int solve(const Command* self, const Scene* scene) {
@@ -257,9 +254,9 @@ static int solve(const Command* self, const Scene* scene) {
 }
 
 int modes_main(int argc, char** argv) {
-  (void)argc;
   char error[SCENE_ERROR_SIZE] = "";
-  Command self = {.args = {.command = "hooke modes", .words = argv + 1, .options = options}};
+  Command self = {
+      .args = {.command = "hooke modes", .argc = argc, .argv = argv, .options = options}};
   if (!parse(&self)) {
     return ARGS_USAGE;
   }

@@ -1,80 +1,208 @@
 #define _POSIX_C_SOURCE 200809L
 
-#include "tools/commands/render.h"
-
-#include "tools/commands/render_options.h"
-#include "tools/commands/scene_render.h"
-#include "tools/commands/score_render.h"
-#include "tools/formats/midifile.h"
+#include "core/analysis/modes.h"
+#include "tools/commands/args.h"
+#include "tools/commands/commands.h"
+#include "tools/formats/scene_player.h"
+#include "tools/formats/score.h"
+#include "tools/formats/smf.h"
 #include "tools/formats/soundfile.h"
 #include "tools/host/host.h"
 #include "tools/host/locate.h"
 #include "tools/host/play.h"
-#include "tools/host/setting.h"
 
+#include <float.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
 #include <unistd.h>
+
+const char render_help[] =
+    "usage: hooke render [OPTION]... IN.mid OUT.wav\n"
+    "       hooke render [OPTION]... IN.score OUT.wav\n"
+    "       hooke render [OPTION]... IN.scene OUT.wav\n"
+    "\n"
+    "Play a Standard MIDI File or a guitarist's score with a plugin, or the masses and springs\n"
+    "of a scene, and write what sounds. OUT ends in .wav, .flac or .ogg. For what a score may "
+    "say,\n"
+    "see hooke help score.\n"
+    "\n"
+    "For all:\n"
+    "  --rate HZ           sample rate, 48000 or the scene's own by default\n"
+    "  --bits N            16, 24 or 32 (float); by default 32 for .wav, 24 for .flac\n"
+    "  --quiet             write nothing to the terminal but errors\n"
+    "\n"
+    "For a MIDI file or a score:\n"
+    "  --preset NAME       start from a preset, by its name or URI; a score's own is not loaded\n"
+    "  --set SYMBOL=VALUE  set a control, after the preset and what a score sets; may be repeated\n"
+    "  --block N           frames in a block, 256 by default\n"
+    "  --tail S            seconds after the end; by default until silent, at most 10\n"
+    "  --plugin URI        the plugin, by default urn:hooke:strings for a MIDI file and\n"
+    "                      urn:hooke:guitar for a score\n"
+    "  --list-presets      write the names of the presets, and no sound\n"
+    "\n"
+    "For a scene:\n"
+    "  --anyway            render it even if it is unstable, as long as its numbers are finite\n"
+    "\n"
+    "Returns 0 when the sound is written, 3 for a scene that is unstable, and 1 or 2 otherwise.\n";
+
+#define STRINGS_PLUGIN "urn:hooke:strings"
+#define GUITAR_PLUGIN "urn:hooke:guitar"
+
+enum {
+  ERROR_SIZE = 4608,
+  PATH_SIZE = 4096,
+  SCENE_BLOCK = 256,        // Frames between two looks at the whole
+  MAX_MASSES_TO_NAME = 1000 // Above this the mode that grows is not sought
+};
 
 static const double USUAL_RATE_HZ = 48000.0;
 
-/* What sounds: a host that plays a song or score, or a scene. */
+typedef enum { KIND_SONG, KIND_SCORE, KIND_SCENE } Kind;
+
 typedef struct {
-  Host* host;
-  PlaySong song;
-  Scene* scene;
-  double rate_hz;
-} Source;
+  Args args;
+  const char* in;
+  const char* out;
+  Kind kind;          // Of `in`
+  const char* preset; // NULL: none
+  const char* plugin; // Its URI
+  const char** sets;  // In the order given
+  size_t n_sets;
+  long rate_hz;            // 0: the usual one
+  long block;              // [frames]
+  long bits;               // 0: the usual ones
+  double tail_s;           // Below 0: until silent
+  const char* song_option; // One that was given and is not for scenes
+  bool lists_presets;
+  bool is_quiet;
+  bool is_anyway; // Whether a scene that is unstable is rendered too
+} Render;
 
-static Host* make_host(const RenderOptions* self, double rate_hz) {
-  char bundle[4096];
-  char error[256] = "";
-  const HostConfig config = {.rate_hz = rate_hz,
-                             .max_block = (uint32_t)self->block,
-                             .bundle = locate_bundle(bundle, sizeof(bundle)) ? bundle : NULL,
-                             .is_silent = self->is_quiet};
-  Host* const host = host_new_with(self->plugin, &config, error, sizeof(error));
-  if (!host) {
-    args_fail(&self->args, 0, "%s", error);
-  }
-  return host;
+/* The command line */
+
+enum { PRESET = ARGS_OPTION, SET, RATE, BLOCK, TAIL, BITS, PLUGIN, LIST_PRESETS, QUIET, ANYWAY };
+
+static const struct option options[] = {{"preset", required_argument, NULL, PRESET},
+                                        {"set", required_argument, NULL, SET},
+                                        {"rate", required_argument, NULL, RATE},
+                                        {"block", required_argument, NULL, BLOCK},
+                                        {"tail", required_argument, NULL, TAIL},
+                                        {"bits", required_argument, NULL, BITS},
+                                        {"plugin", required_argument, NULL, PLUGIN},
+                                        {"list-presets", no_argument, NULL, LIST_PRESETS},
+                                        {"quiet", no_argument, NULL, QUIET},
+                                        {"anyway", no_argument, NULL, ANYWAY},
+                                        {0}};
+
+static bool has_ending(const char* path, const char* ending) {
+  const char* const dot = strrchr(path, '.');
+  return dot && !strcasecmp(dot, ending);
 }
 
-static int load_preset(const RenderOptions* self, const Score* score, Host* host) {
-  if (self->preset) {
-    return host_preset(host, self->preset)
-               ? ARGS_OK
-               : args_fail(&self->args, ARGS_USAGE, "%s; --list-presets names them",
-                           host_error(host));
+static bool take_operand(Render* self, const char* value) {
+  if (self->in && self->out) {
+    return args_fail(&self->args, false, "found '%s' too, expected one input and one output",
+                     value);
   }
-  return !score || score_render_load_preset(&self->args, self->in, score, host) ? ARGS_OK
-                                                                                : ARGS_FAILURE;
+  if (self->in) {
+    self->out = value;
+    return true;
+  }
+  self->in = value;
+  self->kind = has_ending(value, ".scene")   ? KIND_SCENE
+               : has_ending(value, ".score") ? KIND_SCORE
+                                             : KIND_SONG;
+  return true;
 }
 
-/* The command line has the last word. */
-static int prepare(const RenderOptions* self, const Score* score, Host* host) {
-  if (score && !score_render_is_playable(&self->args, host)) {
-    return ARGS_USAGE;
+static bool take_bits(Render* self, const char* value) {
+  return args_whole(&self->args, "--bits", value, 16, 32, &self->bits) &&
+         (self->bits == 16 || self->bits == 24 || self->bits == 32 ||
+          args_fail(&self->args, false, "--bits: found '%s', expected 16, 24 or 32", value));
+}
+
+static bool take_option(Render* self, int found) {
+  const Args* const args = &self->args;
+  const char* const value = args->value;
+  switch (found) {
+  case RATE:
+    return args_whole(args, "--rate", value, 4000, 768000, &self->rate_hz);
+  case BITS:
+    return take_bits(self, value);
+  case QUIET:
+    return self->is_quiet = true;
+  case ANYWAY:
+    return self->is_anyway = true;
+  case ARGS_OPERAND:
+    return take_operand(self, value);
+  case ARGS_ERROR:
+    return false;
+  default:
+    break;
   }
-  const int code = load_preset(self, score, host);
-  if (code) {
-    return code;
+  self->song_option = options[found - ARGS_OPTION].name;
+  switch (found) {
+  case PRESET:
+    self->preset = value;
+    return true;
+  case SET:
+    self->sets[self->n_sets++] = value;
+    return true;
+  case BLOCK:
+    return args_whole(args, "--block", value, 1, 65536, &self->block);
+  case TAIL:
+    return args_number(args, "--tail", value, 0.0, 3600.0, &self->tail_s);
+  case PLUGIN:
+    self->plugin = value;
+    return true;
+  default:
+    return self->lists_presets = true;
   }
-  (void)host_set_freewheel(host, true);
-  if (score && !score_render_set(&self->args, self->in, score, host)) {
-    return ARGS_FAILURE;
+}
+
+/* An option that would do nothing is a mistake. */
+static bool check(const Render* self) {
+  const Args* const args = &self->args;
+  if (self->kind == KIND_SCENE && self->song_option) {
+    return args_fail(args, false,
+                     "found --%s for a scene, expected it for a MIDI file or a score only",
+                     self->song_option);
   }
-  for (size_t i = 0; i < self->n_sets; ++i) {
-    if (!setting_apply(&self->args, host, self->sets[i])) {
-      return ARGS_USAGE;
+  if (self->kind != KIND_SCENE && self->is_anyway) {
+    return args_fail(args, false, "found --anyway for a %s, expected it for a scene only",
+                     self->kind == KIND_SCORE ? "score" : "MIDI file");
+  }
+  if (self->lists_presets) {
+    return true;
+  }
+  if (!self->in || !self->out) {
+    return args_fail(args, false, "found no %s, expected IN.mid and OUT.wav; try hooke help render",
+                     self->in ? "output" : "input");
+  }
+  const char* const refusal = soundfile_refuse(self->out, (unsigned)self->bits);
+  return !refusal || args_fail(args, false, "%s: %s", self->out, refusal);
+}
+
+static bool parse(Render* self) {
+  for (int found = args_next(&self->args); found != ARGS_END; found = args_next(&self->args)) {
+    if (!take_option(self, found)) {
+      return false;
     }
   }
-  return ARGS_OK;
+  if (!self->plugin) {
+    self->plugin = self->kind == KIND_SCORE ? GUITAR_PLUGIN : STRINGS_PLUGIN;
+  }
+  return check(self);
 }
 
-static void report(const RenderOptions* self, const Source* source, const PlayResult* result) {
-  const double duration_s = (double)result->n_frames / source->rate_hz;
+/* The sound file */
+
+static void report(const Render* self, double rate_hz, const PlayResult* result) {
+  const double duration_s = (double)result->n_frames / rate_hz;
   char peak[32] = "silent";
   if (result->peak > 0) {
     (void)snprintf(peak, sizeof(peak), "peak %.1f dBFS", 20.0 * log10((double)result->peak));
@@ -85,134 +213,335 @@ static void report(const RenderOptions* self, const Source* source, const PlayRe
   }
 }
 
-static bool play_source(const RenderOptions* self,
-                        const Source* source,
-                        SoundFile* sound,
-                        PlayResult* result,
-                        char* error,
-                        size_t error_size) {
-  const bool shows_progress = !self->is_quiet && isatty(STDERR_FILENO);
-  if (source->scene) {
-    return scene_render_play(source->scene, source->rate_hz, shows_progress, sound, result, error,
-                             error_size);
-  }
-  const PlayHow how = {source->rate_hz, (uint32_t)self->block, self->tail_s, shows_progress};
-  return play(source->host, &source->song, &how, sound, result, error, error_size);
-}
-
-static int play_to_file(const RenderOptions* self, const Source* source) {
-  char error[512] = "";
-  PlayResult result = {0};
+static int write_file(const Render* self, const PlaySource* source) {
+  char error[ERROR_SIZE] = "";
+  PlayResult result;
   SoundFile* const sound =
       soundfile_new(self->out, (int)source->rate_hz, (unsigned)self->bits, error, sizeof(error));
   if (!sound) {
     return args_fail(&self->args, ARGS_FAILURE, "%s", error);
   }
-  if (!play_source(self, source, sound, &result, error, sizeof(error))) {
+  if (!play(source, sound, &result)) {
     soundfile_free(sound);
-    return args_fail(&self->args, ARGS_FAILURE, "%s: %s", self->out, error);
+    return args_fail(&self->args, ARGS_FAILURE, "%s: %s", self->out, result.error);
   }
   if (!soundfile_finish(sound)) {
     return args_fail(&self->args, ARGS_FAILURE, "%s: not written", self->out);
   }
-  report(self, source, &result);
+  report(self, source->rate_hz, &result);
   return ARGS_OK;
 }
 
 /* Signals wait until the unfinished file is gone: then they do what they do. */
-static int play_uninterrupted(const RenderOptions* self, const Source* source) {
+static int write_uninterrupted(const Render* self, PlaySource source) {
   sigset_t signals;
   sigset_t old_signals;
   (void)sigemptyset(&signals);
   (void)sigaddset(&signals, SIGINT);
   (void)sigaddset(&signals, SIGTERM);
   (void)sigprocmask(SIG_BLOCK, &signals, &old_signals);
-  const int code = play_to_file(self, source);
+  source.shows_progress = !self->is_quiet && isatty(STDERR_FILENO);
+  const int code = write_file(self, &source);
   (void)sigprocmask(SIG_SETMASK, &old_signals, NULL);
   return code;
 }
 
-static int list_presets(Host* host) {
-  for (uint32_t i = 0; i < host_n_presets(host); ++i) {
-    puts(host_preset_label(host, i));
+/* Songs and scores, with a host */
+
+static Host* make_host(const Render* self, double rate_hz) {
+  char bundle[PATH_SIZE];
+  char error[256] = "";
+  const HostConfig config = {.rate_hz = rate_hz,
+                             .max_block = (uint32_t)self->block,
+                             .bundle = locate_bundle(bundle, sizeof(bundle)) ? bundle : NULL,
+                             .is_silent = self->is_quiet};
+  Host* const host = host_new_with(self->plugin, &config, error, sizeof(error));
+  if (!host) {
+    args_fail(&self->args, ARGS_FAILURE, "%s", error);
+  }
+  return host;
+}
+
+/* The bound is a float, up to 6e-8 of it away from the decimal meant: allow for that, and take the
+ * bound. */
+static bool set_control(const Args* args, Host* host, const char* symbol, const char* text) {
+  HostRange range = {0};
+  if (!host_range(host, symbol, &range)) {
+    return args_fail(args, false, "found '%s', expected the symbol of a control input", symbol);
+  }
+  const double min = isnan(range.min) ? -(double)FLT_MAX : (double)range.min;
+  const double max = isnan(range.max) ? (double)FLT_MAX : (double)range.max;
+  if (range.is_integer) {
+    long whole = 0;
+    const long from = (long)fmax(min, INT32_MIN);
+    const long to = (long)fmin(max, INT32_MAX);
+    return args_whole(args, symbol, text, from, to, &whole) && host_set(host, symbol, (float)whole);
+  }
+  double value = 0.0;
+  const double hair = 1e-7;
+  return args_number(args, symbol, text, min - hair * fabs(min), max + hair * fabs(max), &value) &&
+         host_set(host, symbol, (float)fmin(fmax(value, min), max));
+}
+
+/* SYMBOL=VALUE */
+static bool apply_setting(Host* host, const char* setting) {
+  const Args args = {.command = "hooke render: --set"};
+  char symbol[128];
+  const char* const equals = strchr(setting, '=');
+  const size_t length = equals ? (size_t)(equals - setting) : 0;
+  if (length == 0 || length >= sizeof(symbol)) {
+    return args_fail(&args, false, "found '%s', expected SYMBOL=VALUE", setting);
+  }
+  memcpy(symbol, setting, length);
+  symbol[length] = '\0';
+  return set_control(&args, host, symbol, equals + 1);
+}
+
+/* Messages begin with where in the score it stands, as those of its reader do. */
+static Args args_at(const Render* self, uint32_t line, char place[ERROR_SIZE]) {
+  (void)snprintf(place, ERROR_SIZE, "%s: %s:%lu", self->args.command, self->in,
+                 (unsigned long)line);
+  return (Args){.command = place};
+}
+
+static bool set_as_score_says(const Render* self, const Score* score, Host* host) {
+  for (size_t i = 0; i < score->n_settings; ++i) {
+    const ScoreSetting* const setting = &score->settings[i];
+    char place[ERROR_SIZE];
+    char number[32];
+    const Args args = args_at(self, setting->line, place);
+    (void)snprintf(number, sizeof(number), "%.9g", setting->value);
+    if (!set_control(&args, host, setting->symbol, setting->text ? setting->text : number)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/* The command line has the last word. */
+static int load_preset(const Render* self, const Score* score, Host* host) {
+  char place[ERROR_SIZE];
+  const char* const name = self->preset ? self->preset : score ? score->preset : NULL;
+  if (!name || host_preset(host, name)) {
+    return ARGS_OK;
+  }
+  const Args args = self->preset ? self->args : args_at(self, score->preset_line, place);
+  return args_fail(&args, self->preset ? ARGS_USAGE : ARGS_FAILURE, "%s; --list-presets names them",
+                   host_error(host));
+}
+
+static int prepare(const Render* self, const Score* score, Host* host) {
+  if (score && !host_takes(host, GUITAR_EVENT_URI)) {
+    return args_fail(&self->args, ARGS_USAGE,
+                     "found <%s>, expected a plugin that plays scores, as <" GUITAR_PLUGIN ">",
+                     self->plugin);
+  }
+  const int code = load_preset(self, score, host);
+  if (code) {
+    return code;
+  }
+  (void)host_set_freewheel(host, true);
+  if (score && !set_as_score_says(self, score, host)) {
+    return ARGS_FAILURE;
+  }
+  for (size_t i = 0; i < self->n_sets; ++i) {
+    if (!apply_setting(host, self->sets[i])) {
+      return ARGS_USAGE;
+    }
   }
   return ARGS_OK;
 }
 
-static int render_with_host(const RenderOptions* self, PlaySong song, const Score* score) {
-  Source source = {.song = song, .rate_hz = self->rate_hz ? (double)self->rate_hz : USUAL_RATE_HZ};
-  source.host = make_host(self, source.rate_hz);
-  if (!source.host) {
+static int play_with_host(const Render* self, PlaySong song, const Score* score) {
+  song.rate_hz = self->rate_hz ? (double)self->rate_hz : USUAL_RATE_HZ;
+  song.host = make_host(self, song.rate_hz);
+  if (!song.host) {
     return ARGS_FAILURE;
   }
-  int code = ARGS_OK;
-  if (self->lists_presets) {
-    code = list_presets(source.host);
-  } else {
-    code = prepare(self, score, source.host);
-    code = code ? code : play_uninterrupted(self, &source);
+  int code = prepare(self, score, song.host);
+  code = code ? code
+              : write_uninterrupted(self, play_song(&song, (uint32_t)self->block, self->tail_s));
+  host_free(song.host);
+  return code;
+}
+
+static int list_presets(const Render* self) {
+  Host* const host = make_host(self, USUAL_RATE_HZ);
+  for (uint32_t i = 0; host && i < host_n_presets(host); ++i) {
+    puts(host_preset_label(host, i));
   }
-  host_free(source.host);
+  host_free(host);
+  return host ? ARGS_OK : ARGS_FAILURE;
+}
+
+static int render_song(const Render* self) {
+  char error[ERROR_SIZE] = "";
+  Smf* const smf = smf_new(self->in, error, sizeof(error));
+  if (!smf) {
+    return args_fail(&self->args, ARGS_FAILURE, "%s", error);
+  }
+  for (unsigned i = 0; !self->is_quiet && i < SMF_N_NOTES; ++i) {
+    if (*smf->note[i]) {
+      args_fail(&self->args, ARGS_OK, "%s: %s", self->in, smf->note[i]);
+    }
+  }
+  const int code = play_with_host(self, play_smf(smf), NULL);
+  smf_free(smf);
   return code;
 }
 
-static int render_midi(const RenderOptions* self) {
-  char error[512] = "";
-  MidiFile* const file = midifile_new(self->in, error, sizeof(error));
-  const int code = file ? render_with_host(self, play_midi(file), NULL)
-                        : args_fail(&self->args, ARGS_FAILURE, "%s", error);
-  midifile_free(file);
-  return code;
+static PlayEvent score_event(const void* events, size_t i) {
+  const ScoreEvent* const event = (const ScoreEvent*)events + i;
+  return (PlayEvent){event->time_s, &event->event, sizeof(event->event)};
 }
 
-static int render_score(const RenderOptions* self) {
-  char error[SCORE_ERROR_SIZE] = "";
+static int render_score(const Render* self) {
+  char error[ERROR_SIZE] = "";
   Score* const score = score_new(self->in, error, sizeof(error));
-  const int code = score ? render_with_host(self, score_render_song(score), score)
-                         : args_fail(&self->args, ARGS_FAILURE, "%s", error);
+  if (!score) {
+    return args_fail(&self->args, ARGS_FAILURE, "%s", error);
+  }
+  const PlaySong song = {.type_uri = GUITAR_EVENT_URI,
+                         .events = score->events,
+                         .n_events = score->n_events,
+                         .event = score_event,
+                         .duration_s = score->duration_s};
+  const int code = play_with_host(self, song, score);
   score_free(score);
   return code;
 }
 
-static int render_song(const RenderOptions* self) {
-  if (self->lists_presets) {
-    return render_with_host(self, (PlaySong){0}, NULL);
+/* Scenes: judged first, then simulated in double, the same on both sides */
+
+typedef struct {
+  ScenePlayer* player;
+  double rate_hz;
+} Scenery;
+
+/* The mode that grows most, from 1; 0 if it was not found. */
+static uint32_t find_growing(const Scene* scene, double rate_hz, Mode* growing) {
+  Modes* modes = NULL;
+  uint32_t found = 0;
+  if (scene->network->n_masses > MAX_MASSES_TO_NAME ||
+      modes_solve(scene->network, rate_hz, 0, &modes)) {
+    return 0;
   }
-  return score_render_is_score(self->in) ? render_score(self) : render_midi(self);
+  for (uint32_t k = 0; k < modes->n_modes; ++k) {
+    if (!found || modes->mode[k].radius > growing->radius) {
+      found = k + 1;
+      *growing = modes->mode[k];
+    }
+  }
+  modes_free(modes);
+  return found;
 }
 
-static int play_scene(const RenderOptions* self, const Source* source) {
-  if (source->rate_hz != floor(source->rate_hz)) {
+/* The least whole rate that is stable [Hz]. */
+static double sufficient_rate(double largest_step_s) {
+  const double rate_hz = ceil(1.0 / largest_step_s);
+  return 1.0 / rate_hz <= largest_step_s ? rate_hz : rate_hz + 1.0;
+}
+
+static int refuse(const Render* self, const Scene* scene, double rate_hz, double step_s) {
+  char which[128] = "a mode grows";
+  Mode growing = {0};
+  const uint32_t mode = find_growing(scene, rate_hz, &growing);
+  if (mode) {
+    (void)snprintf(which, sizeof(which), "mode %lu of %lu grows %.3g-fold a step",
+                   (unsigned long)mode, (unsigned long)scene->network->n_masses, growing.radius);
+  }
+  return args_fail(
+      &self->args, ARGS_UNSTABLE,
+      "%s: found it unstable at %.12g Hz, where %s, expected a rate of %.0f Hz or more; "
+      "--anyway renders it as it is",
+      self->in, rate_hz, which, sufficient_rate(step_s));
+}
+
+static int judge(const Render* self, const Scene* scene, double rate_hz) {
+  double step_s = 0.0;
+  Status status = modes_largest_step(scene->network, &step_s);
+  status = !status && !(step_s > 0.0) ? STATUS_ILL_SCALED : status;
+  if (status) {
+    return args_fail(&self->args, ARGS_FAILURE,
+                     "%s: could not judge whether it is stable: %s; --anyway renders it unjudged",
+                     self->in, status_text(status));
+  }
+  return 1.0 / rate_hz <= step_s ? ARGS_OK : refuse(self, scene, rate_hz, step_s);
+}
+
+static bool
+run_scene(void* self, uint64_t at, uint32_t n, float* frames, char error[PLAY_ERROR_SIZE]) {
+  Scenery* const scenery = (Scenery*)self;
+  double out[SCENE_BLOCK];
+  scene_player_run(scenery->player, out, n);
+  uint32_t i = 0;
+  for (; i < n && isfinite((float)out[i]); ++i) {
+    frames[2 * (size_t)i] = frames[2 * (size_t)i + 1] = (float)out[i];
+  }
+  if (i == n && scene_player_settle(scenery->player)) {
+    return true;
+  }
+  (void)snprintf(error, PLAY_ERROR_SIZE,
+                 "found a number that is not finite at %.6f s, expected a scene that is stable or "
+                 "ends before",
+                 (double)(at + i) / scenery->rate_hz);
+  return false;
+}
+
+static int play_scene(const Render* self, Scene* scene, double rate_hz) {
+  if (rate_hz != floor(rate_hz)) {
     return args_fail(&self->args, ARGS_FAILURE,
                      "%s: found a rate of %.12g Hz, expected a whole number for a sound file; "
                      "--rate sets one",
-                     self->in, source->rate_hz);
+                     self->in, rate_hz);
   }
-  const int code = self->is_anyway
-                       ? ARGS_OK
-                       : scene_render_judge(&self->args, self->in, source->scene, source->rate_hz);
-  return code ? code : play_uninterrupted(self, source);
-}
-
-static int render_scene(const RenderOptions* self) {
-  char error[SCENE_ERROR_SIZE] = "";
-  Source source = {.scene = scene_new(self->in, SCENE_FOR_SOUND, error, sizeof(error))};
-  if (!source.scene) {
-    return args_fail(&self->args, ARGS_FAILURE, "%s", error);
+  int code = self->is_anyway ? ARGS_OK : judge(self, scene, rate_hz);
+  if (code) {
+    return code;
   }
-  source.rate_hz = self->rate_hz ? (double)self->rate_hz : source.scene->rate_hz;
-  const int code = play_scene(self, &source);
-  scene_free(source.scene);
+  Scenery scenery = {scene_player_new(scene, rate_hz), rate_hz};
+  if (!scenery.player) {
+    return args_fail(&self->args, ARGS_FAILURE, "%s: out of memory", self->out);
+  }
+  code = write_uninterrupted(self, (PlaySource){.self = &scenery,
+                                                .run = run_scene,
+                                                .rate_hz = rate_hz,
+                                                .block = SCENE_BLOCK,
+                                                .n_frames = scene_player_length(scenery.player)});
+  scene_player_free(scenery.player);
   return code;
 }
 
-static int render(const RenderOptions* self) {
-  return self->in && scene_render_is_scene(self->in) ? render_scene(self) : render_song(self);
+static int render_scene(const Render* self) {
+  char error[SCENE_ERROR_SIZE] = "";
+  Scene* const scene = scene_new(self->in, SCENE_FOR_SOUND, error, sizeof(error));
+  if (!scene) {
+    return args_fail(&self->args, ARGS_FAILURE, "%s", error);
+  }
+  const int code = play_scene(self, scene, self->rate_hz ? (double)self->rate_hz : scene->rate_hz);
+  scene_free(scene);
+  return code;
+}
+
+static int render(Render* self) {
+  static int (*const kinds[])(const Render*) = {
+      [KIND_SONG] = render_song, [KIND_SCORE] = render_score, [KIND_SCENE] = render_scene};
+  if (!self->sets) {
+    return args_fail(&self->args, ARGS_FAILURE, "out of memory");
+  }
+  if (!parse(self)) {
+    return ARGS_USAGE;
+  }
+  return self->lists_presets ? list_presets(self) : kinds[self->kind](self);
 }
 
 int render_main(int argc, char** argv) {
-  RenderOptions options;
-  const int code = render_options_read(&options, argc, argv) ? render(&options) : ARGS_USAGE;
-  render_options_clear(&options);
+  Render self = {
+      .args = {.command = "hooke render", .argc = argc, .argv = argv, .options = options},
+      .sets = calloc((size_t)argc + 1, sizeof(*self.sets)),
+      .block = 256,
+      .tail_s = -1.0};
+  const int code = render(&self);
+  free((void*)self.sets);
   return code;
 }

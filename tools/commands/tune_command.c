@@ -1,8 +1,7 @@
-#include "tools/commands/tune_command.h"
-
 #include "core/analysis/retune.h"
 #include "core/string/tuning.h"
 #include "tools/commands/args.h"
+#include "tools/commands/commands.h"
 #include "tools/formats/scene.h"
 
 #include <math.h>
@@ -32,18 +31,18 @@ const char tune_help[] =
     "\n"
     "Returns 0, or 3 if what was found is unstable, and 1 or 2 if nothing was found.\n";
 
-enum { FREQ, TAU, RATE, MASSES, MASS, LOSS, STIFFNESS, MODE, CSV };
+enum { FREQ = ARGS_OPTION, TAU, RATE, MASSES, MASS, LOSS, STIFFNESS, MODE, CSV };
 
-static const ArgsOption options[] = {[FREQ] = {"--freq", true},
-                                     [TAU] = {"--tau", true},
-                                     [RATE] = {"--rate", true},
-                                     [MASSES] = {"--masses", true},
-                                     [MASS] = {"--mass", true},
-                                     [LOSS] = {"--loss", true},
-                                     [STIFFNESS] = {"--stiffness", true},
-                                     [MODE] = {"--mode", true},
-                                     [CSV] = {"--csv", false},
-                                     {NULL, false}};
+static const struct option options[] = {{"freq", required_argument, NULL, FREQ},
+                                        {"tau", required_argument, NULL, TAU},
+                                        {"rate", required_argument, NULL, RATE},
+                                        {"masses", required_argument, NULL, MASSES},
+                                        {"mass", required_argument, NULL, MASS},
+                                        {"loss", required_argument, NULL, LOSS},
+                                        {"stiffness", required_argument, NULL, STIFFNESS},
+                                        {"mode", required_argument, NULL, MODE},
+                                        {"csv", no_argument, NULL, CSV},
+                                        {0}};
 
 enum { MAX_MASSES = 10000000 };
 
@@ -69,8 +68,7 @@ static bool take_tau(Command* self, const char* value) {
 
 static bool take_operand(Command* self) {
   if (self->in) {
-    args_fail(&self->args, 0, "found '%s' too, expected one scene", self->args.value);
-    return false;
+    return args_fail(&self->args, false, "found '%s' too, expected one scene", self->args.value);
   }
   self->in = self->args.value;
   return true;
@@ -79,7 +77,7 @@ static bool take_operand(Command* self) {
 static bool take_string_option(Command* self, int index) {
   const Args* const args = &self->args;
   const char* const value = args->value;
-  self->string_option = options[index].name;
+  self->string_option = options[index - ARGS_OPTION].name;
   switch (index) {
   case MASSES:
     return args_whole(args, "--masses", value, 1, MAX_MASSES, &self->n_masses);
@@ -128,16 +126,14 @@ static bool check(const Command* self) {
     return lacks(self, "--tau");
   }
   if (self->in && self->string_option) {
-    args_fail(&self->args, 0, "found %s for a scene, expected it for a string only",
-              self->string_option);
-    return false;
+    return args_fail(&self->args, false, "found --%s for a scene, expected it for a string only",
+                     self->string_option);
   }
   if (self->in) {
     return true;
   }
   if (self->is_mode_given) {
-    args_fail(&self->args, 0, "found --mode for a string, expected it for a scene only");
-    return false;
+    return args_fail(&self->args, false, "found --mode for a string, expected it for a scene only");
   }
   return (self->n_masses || lacks(self, "--masses, nor a scene")) &&
          (self->target.rate_hz > 0.0 || lacks(self, "--rate"));
@@ -157,9 +153,9 @@ static bool is_below_half(const Command* self, double rate_hz) {
   if (f0_hz < 0.5 * rate_hz) {
     return true;
   }
-  args_fail(&self->args, 0, "--freq: found %.12g, expected a pitch below half the rate, %.12g Hz",
-            f0_hz, 0.5 * rate_hz);
-  return false;
+  return args_fail(&self->args, false,
+                   "--freq: found %.12g, expected a pitch below half the rate, %.12g Hz", f0_hz,
+                   0.5 * rate_hz);
 }
 
 static void print_quantity(const char* name, double value, const char* unit, const char* what) {
@@ -242,7 +238,7 @@ static int tune_string(const Command* self) {
     return args_fail(&self->args, ARGS_FAILURE, "could not tune: %s", status_text(status));
   }
   (self->is_csv ? print_csv : print_table)(self, coefs);
-  return finish(self, is_stable(self, coefs) ? ARGS_OK : SCENE_UNSTABLE);
+  return finish(self, is_stable(self, coefs) ? ARGS_OK : ARGS_UNSTABLE);
 }
 
 static int print_retuning(const Command* self, Retuning retuning) {
@@ -260,7 +256,7 @@ static int retune(const Command* self, const Scene* scene, double rate_hz) {
   const Status status =
       retune_solve(scene->network, rate_hz, self->target.tone, (uint32_t)self->mode, &retuning);
   if (status) {
-    const int code = status == STATUS_UNSTABLE ? SCENE_UNSTABLE : ARGS_FAILURE;
+    const int code = status == STATUS_UNSTABLE ? ARGS_UNSTABLE : ARGS_FAILURE;
     return args_fail(&self->args, code, "%s: could not tune mode %ld: %s", self->in, self->mode,
                      status_text(status));
   }
@@ -280,8 +276,7 @@ static int tune_scene(const Command* self) {
 }
 
 int tune_main(int argc, char** argv) {
-  (void)argc;
-  Command self = {.args = {.command = "hooke tune", .words = argv + 1, .options = options},
+  Command self = {.args = {.command = "hooke tune", .argc = argc, .argv = argv, .options = options},
                   .target = {.loss = 1.0},
                   .mass_kg = 1.0,
                   .mode = 1};

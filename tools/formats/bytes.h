@@ -1,5 +1,5 @@
 /**
-   Bytes that grow: the one place where the tools enlarge memory.
+   Bytes that grow, the one place where the tools enlarge memory, and files read into them.
 */
 #ifndef HOOKE_TOOLS_FORMATS_BYTES_H
 #define HOOKE_TOOLS_FORMATS_BYTES_H
@@ -22,6 +22,16 @@ typedef struct {
    @return false when memory is out; then `bytes` is as it was.
 */
 bool bytes_append(Bytes* bytes, const void* data, size_t size);
+
+/**
+   Add the content of a file at the end.
+
+   @param max_size     More of it than that is a failure [bytes], in whole MiB
+   @param[out] error   "PATH: " and why not, one line; untouched on success
+   @param error_size   Room in `error` [bytes]
+   @return false if the file cannot be read or is too large, or memory is out.
+*/
+bool bytes_read(Bytes* bytes, const char* path, size_t max_size, char* error, size_t error_size);
 
 /** Free the memory and leave an empty array. */
 void bytes_clear(Bytes* bytes);

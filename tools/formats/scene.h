@@ -28,9 +28,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** What the program returns to the shell when a scene is unstable. */
-enum { SCENE_UNSTABLE = 3 };
-
 /** Room for any message of scene_new() about a path of usual length [bytes]. */
 enum { SCENE_ERROR_SIZE = 4608 };
 

@@ -100,11 +100,10 @@ static bool is_directory(const char* path) {
 /* Open the temporary file, which must be a new one. */
 static bool open_part(SoundFile* file, int rate_hz, unsigned bits, char* error, size_t error_size) {
   const Kind* const kind = find_kind(file->path);
-  const int fd =
-      is_directory(file->path) ? -1 : open(file->part, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  const bool is_place = !is_directory(file->path);
+  const int fd = is_place ? open(file->part, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
   if (fd < 0) {
-    const int reason = is_directory(file->path) ? EISDIR : errno;
-    (void)snprintf(error, error_size, "%s: %s", file->path, strerror(reason));
+    (void)snprintf(error, error_size, "%s: %s", file->path, strerror(is_place ? errno : EISDIR));
     return false;
   }
   SF_INFO info = {.samplerate = rate_hz, .channels = 2, .format = kind_format(kind, bits)};
@@ -141,12 +140,15 @@ soundfile_new(const char* path, int rate_hz, unsigned bits, char* error, size_t 
   return NULL;
 }
 
+bool soundfile_has_room(const SoundFile* file, uint64_t n_frames) {
+  return n_frames <= file->bytes_left / file->bytes_per_frame;
+}
+
 bool soundfile_write(SoundFile* file, const float* frames, uint32_t n_frames) {
-  const uint64_t n_bytes = (uint64_t)n_frames * file->bytes_per_frame;
-  if (n_bytes > file->bytes_left) {
+  if (!soundfile_has_room(file, n_frames)) {
     return false;
   }
-  file->bytes_left -= n_bytes;
+  file->bytes_left -= (uint64_t)n_frames * file->bytes_per_frame;
   return sf_writef_float(file->sound, frames, n_frames) == (sf_count_t)n_frames;
 }
 

@@ -29,11 +29,14 @@ const char* soundfile_refuse(const char* path, unsigned bits);
 SoundFile*
 soundfile_new(const char* path, int rate_hz, unsigned bits, char* error, size_t error_size);
 
+/** @return Whether so many frames can still be written: a WAV file is at most of 4 GiB. */
+bool soundfile_has_room(const SoundFile* file, uint64_t n_frames);
+
 /**
    Add frames; integers are clipped to full scale, floats are not.
 
    @param frames  2 × n_frames, left and right in turn
-   @return false when the disk is full, or a WAV file would be longer than 4 GiB.
+   @return false when the disk is full, or there is no room.
 */
 bool soundfile_write(SoundFile* file, const float* frames, uint32_t n_frames);
 

@@ -1,7 +1,11 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include "tools/host/host_impl.h"
 
 #include <lv2/atom/atom.h>
-#include <lv2/worker/worker.h>
+#include <lv2/buf-size/buf-size.h>
+#include <lv2/parameters/parameters.h>
+#include <lv2/state/state.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,6 +18,121 @@ bool host_fail(Host* host, const char* format, ...) {
   va_end(args);
   return false;
 }
+
+/* URIs as small numbers */
+
+static char** uris_of(const Host* host, uint32_t* n_uris) {
+  *n_uris = (uint32_t)(host->uris.size / sizeof(char*));
+  return (char**)(void*)host->uris.data;
+}
+
+static LV2_URID on_map(LV2_URID_Map_Handle handle, const char* uri) {
+  Host* const host = (Host*)handle;
+  uint32_t n_uris = 0;
+  char** const uris = uris_of(host, &n_uris);
+  for (uint32_t i = 0; i < n_uris; ++i) {
+    if (!strcmp(uris[i], uri)) {
+      return i + 1;
+    }
+  }
+  char* const copy = strdup(uri);
+  if (!copy || !bytes_append(&host->uris, (const void*)&copy, sizeof(copy))) {
+    free(copy);
+    return 0;
+  }
+  return n_uris + 1;
+}
+
+static const char* on_unmap(LV2_URID_Unmap_Handle handle, LV2_URID urid) {
+  uint32_t n_uris = 0;
+  char** const uris = uris_of((const Host*)handle, &n_uris);
+  return urid > 0 && urid <= n_uris ? uris[urid - 1] : NULL;
+}
+
+static void clear_uris(Host* host) {
+  uint32_t n_uris = 0;
+  char** const uris = uris_of(host, &n_uris);
+  for (uint32_t i = 0; i < n_uris; ++i) {
+    free(uris[i]);
+  }
+  bytes_clear(&host->uris);
+}
+
+/* Features */
+
+LV2_LOG_FUNC(3, 0)
+static int on_vprintf(LV2_Log_Handle handle, LV2_URID type, const char* format, va_list args) {
+  (void)type;
+  return ((const Host*)handle)->is_silent ? 0 : vfprintf(stderr, format, args);
+}
+
+LV2_LOG_FUNC(3, 4)
+static int on_printf(LV2_Log_Handle handle, LV2_URID type, const char* format, ...) {
+  va_list args;
+  va_start(args, format);
+  const int n_printed = on_vprintf(handle, type, format, args);
+  va_end(args);
+  return n_printed;
+}
+
+static LV2_Options_Option option(Host* host, const char* key, const char* type, const void* value) {
+  return (LV2_Options_Option){.context = LV2_OPTIONS_INSTANCE,
+                              .key = host_map(host, key),
+                              .size = 4,
+                              .type = host_map(host, type),
+                              .value = value};
+}
+
+static bool init_options(Host* host) {
+  const LV2_Options_Option options[HOST_N_OPTIONS - 1] = {
+      option(host, LV2_PARAMETERS__sampleRate, LV2_ATOM__Float, &host->rate_hz),
+      option(host, LV2_BUF_SIZE__minBlockLength, LV2_ATOM__Int, &host->min_block),
+      option(host, LV2_BUF_SIZE__maxBlockLength, LV2_ATOM__Int, &host->max_block),
+      option(host, LV2_BUF_SIZE__nominalBlockLength, LV2_ATOM__Int, &host->max_block)};
+  memcpy(host->options, options, sizeof(options));
+  bool is_ok = true;
+  for (unsigned i = 0; i < HOST_N_OPTIONS - 1; ++i) {
+    is_ok = is_ok && options[i].key && options[i].type;
+  }
+  return is_ok;
+}
+
+/* The first of them is all that a bare host offers; the first three, in this order, are what
+ * host_restore() knows. */
+static bool init_features(Host* host, const HostConfig* config) {
+  host->rate_hz = (float)config->rate_hz;
+  host->max_block = config->max_block < INT32_MAX ? (int32_t)config->max_block : INT32_MAX;
+  host->is_silent = config->is_silent;
+  host->map = (LV2_URID_Map){host, on_map};
+  host->unmap = (LV2_URID_Unmap){host, on_unmap};
+  host->log = (LV2_Log_Log){host, on_printf, on_vprintf};
+  host->schedule = (LV2_Worker_Schedule){&host->worker, host_worker_schedule};
+  const LV2_Feature features[HOST_N_FEATURES] = {{LV2_URID__map, &host->map},
+                                                 {LV2_STATE__threadSafeRestore, NULL},
+                                                 {LV2_WORKER__schedule, &host->schedule},
+                                                 {LV2_URID__unmap, &host->unmap},
+                                                 {LV2_LOG__log, &host->log},
+                                                 {LV2_OPTIONS__options, host->options},
+                                                 {LV2_BUF_SIZE__boundedBlockLength, NULL}};
+  memcpy(host->features, features, sizeof(features));
+  for (unsigned i = 0; i < (config->is_bare ? 1 : HOST_N_FEATURES); ++i) {
+    host->offered[i] = &host->features[i];
+  }
+  host->sequence_type = host_map(host, LV2_ATOM__Sequence);
+  host->chunk_type = host_map(host, LV2_ATOM__Chunk);
+  return init_options(host) && host->sequence_type && host->chunk_type;
+}
+
+static bool offers(const Host* host, const char* uri) {
+  for (unsigned i = 0; host->offered[i]; ++i) {
+    if (!strcmp(host->offered[i]->URI, uri)) {
+      return true;
+    }
+  }
+  return !strcmp(uri, LV2_CORE__isLive);
+}
+
+/* Life cycle */
 
 static bool make_world(Host* host, const char* lv2_path) {
   host->world = lilv_world_new();
@@ -68,7 +187,7 @@ static bool check_required(Host* host) {
   LilvNodes* const required = lilv_plugin_get_required_features(host->plugin);
   LILV_FOREACH(nodes, i, required) {
     const char* const uri = lilv_node_as_string(lilv_nodes_get(required, i));
-    if (is_ok && !host_features_offer(&host->features, uri)) {
+    if (is_ok && !offers(host, uri)) {
       is_ok = host_fail(host, "plugin requires the feature <%s>, which is not offered", uri);
     }
   }
@@ -77,7 +196,7 @@ static bool check_required(Host* host) {
 }
 
 static bool instantiate(Host* host, double rate_hz) {
-  host->instance = lilv_plugin_instantiate(host->plugin, rate_hz, host->features.offered);
+  host->instance = lilv_plugin_instantiate(host->plugin, rate_hz, host->offered);
   if (!host->instance) {
     return host_fail(host, "plugin does not instantiate at %g Hz", rate_hz);
   }
@@ -88,22 +207,18 @@ static bool instantiate(Host* host, double rate_hz) {
   return true;
 }
 
-static bool host_init(Host* host, const char* plugin_uri, const HostConfig* config) {
+static bool init(Host* host, const char* plugin_uri, const HostConfig* config) {
   if (!(config->rate_hz > 0) || config->max_block == 0) {
     return host_fail(host, "rate and block must be above 0");
   }
-  host->max_block = config->max_block;
-  if (!host_features_init(&host->features, &host->worker, config->rate_hz, config->max_block,
-                          config->is_bare, config->is_silent)) {
+  if (!init_features(host, config)) {
     return host_fail(host, "out of memory");
   }
-  host->sequence_type = host_map(host, LV2_ATOM__Sequence);
-  host->chunk_type = host_map(host, LV2_ATOM__Chunk);
   if (!make_world(host, config->lv2_path) || !find_plugin(host, plugin_uri, config) ||
       !check_required(host)) {
     return false;
   }
-  if (!host_ports_init(&host->ports, host->world, host->plugin, config->max_block)) {
+  if (!host_make_ports(host)) {
     return host_fail(host, "plugin <%s>: ports unreadable, or out of memory", plugin_uri);
   }
   return instantiate(host, config->rate_hz);
@@ -120,7 +235,7 @@ Host* host_new_with(const char* plugin_uri,
                     char* error,
                     size_t error_size) {
   Host* const host = calloc(1, sizeof(Host));
-  if (host && host_init(host, plugin_uri, config)) {
+  if (host && init(host, plugin_uri, config)) {
     return host;
   }
   if (error && error_size > 0) {
@@ -139,10 +254,11 @@ void host_free(Host* host) {
     lilv_instance_free(host->instance);
   }
   host_clear_presets(host);
-  host_events_clear(&host->events);
-  host_ports_clear(&host->ports);
+  bytes_clear(&host->queue);
+  bytes_clear(&host->bodies);
+  host_clear_ports(host);
   host_worker_clear(&host->worker);
-  host_features_clear(&host->features);
+  clear_uris(host);
   lilv_world_free(host->world);
   free(host);
 }
@@ -167,11 +283,7 @@ const char* host_error(const Host* host) {
 
 LV2_URID
 host_map(Host* host, const char* uri) {
-  return urids_map(&host->features.urids, uri);
-}
-
-const char* host_unmap(const Host* host, LV2_URID urid) {
-  return urids_unmap(&host->features.urids, urid);
+  return on_map(host, uri);
 }
 
 LilvInstance* host_instance(Host* host) {
@@ -187,7 +299,7 @@ LilvWorld* host_world(Host* host) {
 }
 
 const LV2_Feature* const* host_features(const Host* host) {
-  return host->features.offered;
+  return host->offered;
 }
 
 HostWorker* host_worker(Host* host) {
@@ -199,7 +311,11 @@ void host_connect(Host* host, uint32_t port_index, void* data) {
 }
 
 void host_reconnect(Host* host) {
-  for (uint32_t i = 0; i < host->ports.n_ports; ++i) {
-    host_connect(host, i, host_port_data(&host->ports.ports[i]));
+  for (uint32_t i = 0; i < host->n_ports; ++i) {
+    HostPort* const port = &host->ports[i];
+    host_connect(host, i,
+                 port->type == HOST_PORT_CONTROL ? (void*)&port->value
+                 : port->type == HOST_PORT_ATOM  ? (void*)port->atom
+                                                 : (void*)port->frames);
   }
 }

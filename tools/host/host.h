@@ -101,6 +101,9 @@ bool host_range(const Host* host, const char* symbol, HostRange* range);
 /** Set the port designated lv2:freeWheeling. @return false if there is none. */
 bool host_set_freewheel(Host* host, bool is_freewheeling);
 
+/** @return Whether a port takes events of that type. */
+bool host_takes(Host* host, const char* type_uri);
+
 /** @return The number of ports, and the symbol of one by index (NULL if there is none). */
 uint32_t host_n_ports(const Host* host);
 const char* host_port_symbol(const Host* host, uint32_t index);
@@ -108,18 +111,9 @@ const char* host_port_symbol(const Host* host, uint32_t index);
 /** @return true if the port is a control input. */
 bool host_port_is_control_input(const Host* host, uint32_t index);
 
-/** @return The number of audio outputs. */
-uint32_t host_n_outputs(const Host* host);
-
 /** @return What the k-th audio output got in the last run, max_block frames long; NULL if there is
  * none. */
 const float* host_output(const Host* host, uint32_t k);
-
-/** The same by symbol. */
-const float* host_output_named(const Host* host, const char* symbol);
-
-/** @return The k-th audio input's buffer, zeros unless written to; NULL if there is none. */
-float* host_input(Host* host, uint32_t k);
 
 /* Events */
 
@@ -152,11 +146,10 @@ const LV2_Atom_Sequence* host_notify(const Host* host);
 */
 bool host_set_notify_capacity(Host* host, uint32_t capacity);
 
-/** @return The number of a URI, and back; 0 or NULL if there is none. */
+/** @return The number of a URI; 0 when memory is out. */
 LV2_URID host_map(Host* host, const char* uri);
-const char* host_unmap(const Host* host, LV2_URID urid);
 
-/* Presets and state: host_presets.c, host_state.c */
+/* Presets */
 
 /** @return How many presets the plugin has; the first call reads them. */
 uint32_t host_n_presets(Host* host);
@@ -173,28 +166,13 @@ const char* host_preset_uri(Host* host, uint32_t k);
 */
 bool host_preset(Host* host, const char* name);
 
-/** @return A snapshot of control inputs and the plugin's own state, for lilv_state_free(); NULL on
- * failure. */
-LilvState* host_save_state(Host* host);
+/**
+   Put a state back between runs: port values and what the plugin keeps.
 
-/** Put a snapshot back without a worker, as a session load does. */
-void host_restore_state(Host* host, const LilvState* state);
-
-/** Put a snapshot back with the worker offered, as a choice of preset does. */
-void host_restore_preset(Host* host, const LilvState* state);
-
-/** @return `state` as Turtle, to be freed with lilv_free(); NULL on failure. */
-char* host_state_to_string(Host* host, const LilvState* state);
-
-/** @return The state written in `turtle`, for lilv_state_free(); NULL on failure. */
-LilvState* host_state_from_string(Host* host, const char* turtle);
-
-/** Save the present state as a bundle in `dir`, made if need be, files of the state with it.
- * @return false on failure. */
-bool host_save_state_dir(Host* host, const char* dir);
-
-/** @return The state saved in `dir`, for lilv_state_free(); NULL on failure. */
-LilvState* host_load_state_dir(Host* host, const char* dir);
+   @param has_worker  Whether the worker is offered, as when a preset is chosen, or not, as when a
+   session is loaded
+*/
+void host_restore(Host* host, const LilvState* state, bool has_worker);
 
 /* Close to the plugin, for tests that mean harm */
 

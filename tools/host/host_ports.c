@@ -1,8 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 
-#include "tools/host/host_ports.h"
+#include "tools/host/host_impl.h"
 
-#include <lv2/core/lv2.h>
 #include <lv2/midi/midi.h>
 #include <math.h>
 #include <stdlib.h>
@@ -10,30 +9,18 @@
 
 enum { ATOM_CAPACITY = 8192 };
 
-static bool
-port_is(LilvWorld* world, const LilvPlugin* plugin, const LilvPort* port, const char* class_uri) {
-  LilvNode* const node = lilv_new_uri(world, class_uri);
-  const bool answer = lilv_port_is_a(plugin, port, node);
+/* A question about a port that lilv answers by a node. */
+static bool ask(Host* host,
+                const LilvPort* port,
+                const char* uri,
+                bool (*question)(const LilvPlugin*, const LilvPort*, const LilvNode*)) {
+  LilvNode* const node = lilv_new_uri(host->world, uri);
+  const bool answer = node && question(host->plugin, port, node);
   lilv_node_free(node);
   return answer;
 }
 
-static bool
-port_has(LilvWorld* world, const LilvPlugin* plugin, const LilvPort* port, const char* property) {
-  LilvNode* const node = lilv_new_uri(world, property);
-  const bool answer = lilv_port_has_property(plugin, port, node);
-  lilv_node_free(node);
-  return answer;
-}
-
-static bool port_takes_midi(LilvWorld* world, const LilvPlugin* plugin, const LilvPort* port) {
-  LilvNode* const node = lilv_new_uri(world, LV2_MIDI__MidiEvent);
-  const bool answer = lilv_port_supports_event(plugin, port, node);
-  lilv_node_free(node);
-  return answer;
-}
-
-static HostPortType port_type(LilvWorld* world, const LilvPlugin* plugin, const LilvPort* port) {
+static HostPortType port_type(Host* host, const LilvPort* port) {
   static const struct {
     const char* uri;
     HostPortType type;
@@ -42,7 +29,7 @@ static HostPortType port_type(LilvWorld* world, const LilvPlugin* plugin, const 
                  {LV2_CORE__CVPort, HOST_PORT_CV},
                  {LV2_ATOM__AtomPort, HOST_PORT_ATOM}};
   for (unsigned i = 0; i < sizeof(classes) / sizeof(classes[0]); ++i) {
-    if (port_is(world, plugin, port, classes[i].uri)) {
+    if (ask(host, port, classes[i].uri, lilv_port_is_a)) {
       return classes[i].type;
     }
   }
@@ -58,58 +45,45 @@ static float node_value(LilvNode* node) {
   return value;
 }
 
-static HostRange port_range(LilvWorld* world, const LilvPlugin* plugin, const LilvPort* port) {
+static HostRange port_range(Host* host, const LilvPort* port) {
   LilvNode* initial = NULL;
   LilvNode* min = NULL;
   LilvNode* max = NULL;
-  lilv_port_get_range(plugin, port, &initial, &min, &max);
+  lilv_port_get_range(host->plugin, port, &initial, &min, &max);
   HostRange range = {node_value(min), node_value(max), node_value(initial), false};
-  range.is_integer = port_has(world, plugin, port, LV2_CORE__integer) ||
-                     port_has(world, plugin, port, LV2_CORE__enumeration) ||
-                     port_has(world, plugin, port, LV2_CORE__toggled);
+  range.is_integer = ask(host, port, LV2_CORE__integer, lilv_port_has_property) ||
+                     ask(host, port, LV2_CORE__enumeration, lilv_port_has_property) ||
+                     ask(host, port, LV2_CORE__toggled, lilv_port_has_property);
   if (!isfinite(range.initial)) {
     range.initial = fmaxf(fminf(0.0F, range.max), range.min);
   }
   return range;
 }
 
-static bool port_allocate(HostPort* port, uint32_t max_block) {
+static bool allocate(Host* host, HostPort* port) {
   if (port->type == HOST_PORT_AUDIO || port->type == HOST_PORT_CV) {
-    port->frames = calloc((size_t)max_block + HOST_GUARD_FRAMES, sizeof(float));
+    port->frames = calloc((size_t)host->max_block + HOST_GUARD_FRAMES, sizeof(float));
     return port->frames;
   }
-  return port->type != HOST_PORT_ATOM || host_port_resize(port, ATOM_CAPACITY);
+  return port->type != HOST_PORT_ATOM || host_resize_port(port, ATOM_CAPACITY);
 }
 
-static bool port_init(HostPort* self,
-                      LilvWorld* world,
-                      const LilvPlugin* plugin,
-                      const LilvPort* port,
-                      uint32_t max_block) {
-  self->type = port_type(world, plugin, port);
-  self->is_input = port_is(world, plugin, port, LV2_CORE__InputPort);
-  self->symbol = strdup(lilv_node_as_string(lilv_port_get_symbol(plugin, port)));
+static bool init_port(Host* host, HostPort* self, const LilvPort* port) {
+  self->type = port_type(host, port);
+  self->is_input = ask(host, port, LV2_CORE__InputPort, lilv_port_is_a);
+  self->symbol = strdup(lilv_node_as_string(lilv_port_get_symbol(host->plugin, port)));
   if (self->type == HOST_PORT_CONTROL) {
-    self->range = port_range(world, plugin, port);
+    self->range = port_range(host, port);
     self->value = self->range.initial;
   }
-  self->takes_midi = self->type == HOST_PORT_ATOM && port_takes_midi(world, plugin, port);
-  return self->symbol && port_allocate(self, max_block);
+  self->takes_midi = self->type == HOST_PORT_ATOM &&
+                     ask(host, port, LV2_MIDI__MidiEvent, lilv_port_supports_event);
+  return self->symbol && allocate(host, self);
 }
 
-static uint32_t
-find_designated(LilvWorld* world, const LilvPlugin* plugin, const char* designation) {
-  LilvNode* const class_node = lilv_new_uri(world, LV2_CORE__InputPort);
-  LilvNode* const node = lilv_new_uri(world, designation);
-  const LilvPort* const port = lilv_plugin_get_port_by_designation(plugin, class_node, node);
-  lilv_node_free(node);
-  lilv_node_free(class_node);
-  return port ? lilv_port_get_index(plugin, port) : UINT32_MAX;
-}
-
-static uint32_t find_atom(const HostPorts* ports, bool is_input, bool takes_midi) {
-  for (uint32_t i = 0; i < ports->n_ports; ++i) {
-    const HostPort* const port = &ports->ports[i];
+static uint32_t find_atom(const Host* host, bool is_input, bool takes_midi) {
+  for (uint32_t i = 0; i < host->n_ports; ++i) {
+    const HostPort* const port = &host->ports[i];
     if (port->type == HOST_PORT_ATOM && port->is_input == is_input &&
         (port->takes_midi || !takes_midi)) {
       return i;
@@ -118,44 +92,21 @@ static uint32_t find_atom(const HostPorts* ports, bool is_input, bool takes_midi
   return UINT32_MAX;
 }
 
-bool host_ports_init(HostPorts* ports,
-                     LilvWorld* world,
-                     const LilvPlugin* plugin,
-                     uint32_t max_block) {
-  const uint32_t n_ports = lilv_plugin_get_num_ports(plugin);
-  ports->ports = calloc(n_ports ? n_ports : 1, sizeof(HostPort));
-  if (!ports->ports) {
-    return false;
+bool host_make_ports(Host* host) {
+  const uint32_t n_ports = lilv_plugin_get_num_ports(host->plugin);
+  host->ports = calloc(n_ports + 1, sizeof(HostPort));
+  host->n_ports = host->ports ? n_ports : 0;
+  bool is_ok = host->ports;
+  for (uint32_t i = 0; is_ok && i < n_ports; ++i) {
+    const LilvPort* const port = lilv_plugin_get_port_by_index(host->plugin, i);
+    is_ok = port && init_port(host, &host->ports[i], port);
   }
-  ports->n_ports = n_ports;
-  for (uint32_t i = 0; i < n_ports; ++i) {
-    const LilvPort* const port = lilv_plugin_get_port_by_index(plugin, i);
-    if (!port || !port_init(&ports->ports[i], world, plugin, port, max_block)) {
-      return false;
-    }
-  }
-  ports->freewheel = find_designated(world, plugin, LV2_CORE__freeWheeling);
-  ports->events_in = find_atom(ports, true, true);
-  ports->notify = find_atom(ports, false, false);
-  return true;
+  host->events_in = find_atom(host, true, true);
+  host->notify = find_atom(host, false, false);
+  return is_ok;
 }
 
-void* host_port_data(HostPort* port) {
-  switch (port->type) {
-  case HOST_PORT_CONTROL:
-    return &port->value;
-  case HOST_PORT_AUDIO:
-  case HOST_PORT_CV:
-    return port->frames;
-  case HOST_PORT_ATOM:
-    return port->atom;
-  case HOST_PORT_OTHER:
-    break;
-  }
-  return NULL;
-}
-
-bool host_port_resize(HostPort* port, uint32_t capacity) {
+bool host_resize_port(HostPort* port, uint32_t capacity) {
   LV2_Atom* const atom = calloc(1, sizeof(LV2_Atom) + capacity);
   if (!atom) {
     return false;
@@ -166,22 +117,93 @@ bool host_port_resize(HostPort* port, uint32_t capacity) {
   return true;
 }
 
-HostPort* host_ports_nth(const HostPorts* ports, HostPortType type, bool is_input, uint32_t k) {
-  for (uint32_t i = 0; i < ports->n_ports; ++i) {
-    HostPort* const port = &ports->ports[i];
-    if (port->type == type && port->is_input == is_input && k-- == 0) {
-      return port;
+void host_clear_ports(Host* host) {
+  for (uint32_t i = 0; i < host->n_ports; ++i) {
+    free(host->ports[i].symbol);
+    free(host->ports[i].frames);
+    free(host->ports[i].atom);
+  }
+  free(host->ports);
+}
+
+HostPort* host_find_port(const Host* host, const char* symbol, HostPortType type) {
+  const uint32_t i = host_port_index(host, symbol);
+  return i != UINT32_MAX && host->ports[i].type == type ? &host->ports[i] : NULL;
+}
+
+uint32_t host_port_index(const Host* host, const char* symbol) {
+  for (uint32_t i = 0; i < host->n_ports; ++i) {
+    if (!strcmp(host->ports[i].symbol, symbol)) {
+      return i;
+    }
+  }
+  return UINT32_MAX;
+}
+
+bool host_set(Host* host, const char* symbol, float value) {
+  HostPort* const port = host_find_port(host, symbol, HOST_PORT_CONTROL);
+  if (!port) {
+    return host_fail(host, "no control port of symbol '%s'", symbol);
+  }
+  port->value = value;
+  return true;
+}
+
+float host_get(const Host* host, const char* symbol) {
+  const HostPort* const port = host_find_port(host, symbol, HOST_PORT_CONTROL);
+  return port ? port->value : NAN;
+}
+
+bool host_range(const Host* host, const char* symbol, HostRange* range) {
+  const HostPort* const port = host_find_port(host, symbol, HOST_PORT_CONTROL);
+  if (!port || !port->is_input) {
+    return false;
+  }
+  *range = port->range;
+  return true;
+}
+
+bool host_set_freewheel(Host* host, bool is_freewheeling) {
+  LilvNode* const input = lilv_new_uri(host->world, LV2_CORE__InputPort);
+  LilvNode* const node = lilv_new_uri(host->world, LV2_CORE__freeWheeling);
+  const LilvPort* const port = lilv_plugin_get_port_by_designation(host->plugin, input, node);
+  lilv_node_free(node);
+  lilv_node_free(input);
+  if (!port) {
+    return host_fail(host, "plugin has no freewheeling port");
+  }
+  host->ports[lilv_port_get_index(host->plugin, port)].value = is_freewheeling ? 1.0F : 0.0F;
+  return true;
+}
+
+bool host_takes(Host* host, const char* type_uri) {
+  bool is_taken = false;
+  for (uint32_t i = 0; i < host->n_ports; ++i) {
+    const LilvPort* const port = lilv_plugin_get_port_by_index(host->plugin, i);
+    is_taken = is_taken || ask(host, port, type_uri, lilv_port_supports_event);
+  }
+  return is_taken;
+}
+
+uint32_t host_n_ports(const Host* host) {
+  return host->n_ports;
+}
+
+const char* host_port_symbol(const Host* host, uint32_t index) {
+  return index < host->n_ports ? host->ports[index].symbol : NULL;
+}
+
+bool host_port_is_control_input(const Host* host, uint32_t index) {
+  return index < host->n_ports && host->ports[index].type == HOST_PORT_CONTROL &&
+         host->ports[index].is_input;
+}
+
+const float* host_output(const Host* host, uint32_t k) {
+  for (uint32_t i = 0; i < host->n_ports; ++i) {
+    const HostPort* const port = &host->ports[i];
+    if (port->type == HOST_PORT_AUDIO && !port->is_input && k-- == 0) {
+      return port->frames;
     }
   }
   return NULL;
-}
-
-void host_ports_clear(HostPorts* ports) {
-  for (uint32_t i = 0; i < ports->n_ports; ++i) {
-    free(ports->ports[i].symbol);
-    free(ports->ports[i].frames);
-    free(ports->ports[i].atom);
-  }
-  free(ports->ports);
-  *ports = (HostPorts){0};
 }

@@ -2,6 +2,7 @@
 
 #include "tools/host/host_impl.h"
 
+#include <lv2/atom/atom.h>
 #include <lv2/presets/presets.h>
 #include <stdlib.h>
 #include <string.h>
@@ -68,6 +69,39 @@ static const HostPreset* find_preset(Host* host, const char* name) {
   return NULL;
 }
 
+static bool
+read_number(Host* host, const void* value, uint32_t size, uint32_t type, float* number) {
+  double d = 0.0;
+  int64_t l = 0;
+  int32_t i = 0;
+  if (type == host_map(host, LV2_ATOM__Float) && size == sizeof(*number)) {
+    memcpy(number, value, size);
+  } else if (type == host_map(host, LV2_ATOM__Double) && size == sizeof(d)) {
+    memcpy(&d, value, size);
+    *number = (float)d;
+  } else if (type == host_map(host, LV2_ATOM__Long) && size == sizeof(l)) {
+    memcpy(&l, value, size);
+    *number = (float)l;
+  } else if ((type == host_map(host, LV2_ATOM__Int) || type == host_map(host, LV2_ATOM__Bool)) &&
+             size == sizeof(i)) {
+    memcpy(&i, value, size);
+    *number = (float)i;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+static void
+set_value(const char* symbol, void* user_data, const void* value, uint32_t size, uint32_t type) {
+  Host* const host = (Host*)user_data;
+  HostPort* const port = host_find_port(host, symbol, HOST_PORT_CONTROL);
+  float number = 0.0F;
+  if (port && port->is_input && read_number(host, value, size, type, &number)) {
+    port->value = number;
+  }
+}
+
 uint32_t host_n_presets(Host* host) {
   if (!host->has_presets) {
     read_presets(host);
@@ -83,18 +117,24 @@ const char* host_preset_uri(Host* host, uint32_t k) {
   return k < host_n_presets(host) ? host->presets[k].uri : NULL;
 }
 
+void host_restore(Host* host, const LilvState* state, bool has_worker) {
+  const LV2_Feature* const features[] = {&host->features[0], &host->features[1],
+                                         has_worker ? &host->features[2] : NULL, NULL};
+  lilv_state_restore(state, host->instance, set_value, host, 0, features);
+}
+
 bool host_preset(Host* host, const char* name) {
   const HostPreset* const preset = find_preset(host, name);
   if (!preset) {
     return host_fail(host, "no preset named '%s' among %u", name, host_n_presets(host));
   }
   LilvNode* const uri = lilv_new_uri(host->world, preset->uri);
-  LilvState* const state = lilv_state_new_from_world(host->world, &host->features.map, uri);
+  LilvState* const state = lilv_state_new_from_world(host->world, &host->map, uri);
   lilv_node_free(uri);
   if (!state) {
     return host_fail(host, "preset '%s': unreadable", name);
   }
-  host_restore_preset(host, state);
+  host_restore(host, state, true);
   lilv_state_free(state);
   return true;
 }
@@ -105,6 +145,4 @@ void host_clear_presets(Host* host) {
     free(host->presets[i].label);
   }
   free(host->presets);
-  host->presets = NULL;
-  host->n_presets = 0;
 }

@@ -12,32 +12,14 @@
 
 static const float SILENCE = 1e-5F; // −100 dBFS
 static const double SILENCE_S = 0.25;
+static const double MAX_TAIL_S = 10.0;
 
-typedef struct {
-  Host* host;
-  const PlaySong* song;
-  const PlayHow* how;
-  SoundFile* sound;
-  PlayResult* result;
-  char* error;
-  size_t error_size;
-
-  float* frames;     // A block, left and right in turn
-  const float* left; // The host's outputs
-  const float* right;
-  size_t next_event;
-  uint64_t at;           // [frames]
-  uint64_t song_frames;  // To the last event and with it
-  uint64_t end;          // Where to stop at the latest
-  uint64_t needed_quiet; // Silent frames that end it
-  uint64_t quiet;        // Silent frames in a row
-  bool is_done;
-} Play;
-
-__attribute__((format(printf, 2, 3))) static bool fail(const Play* play, const char* format, ...) {
+/* Always false. */
+__attribute__((format(printf, 2, 3))) static bool
+fail(char error[PLAY_ERROR_SIZE], const char* format, ...) {
   va_list args;
   va_start(args, format);
-  (void)vsnprintf(play->error, play->error_size, format, args);
+  (void)vsnprintf(error, PLAY_ERROR_SIZE, format, args);
   va_end(args);
   return false;
 }
@@ -58,134 +40,141 @@ static bool is_interrupted(void) {
          (sigismember(&pending, SIGINT) == 1 || sigismember(&pending, SIGTERM) == 1);
 }
 
-static bool queue_events(Play* play, uint32_t n) {
-  for (; play->next_event < play->song->n_events; ++play->next_event) {
-    const PlayEvent event = play->song->event(play->song->song, play->next_event);
-    const uint64_t frame = to_frames(event.time_s, play->how->rate_hz);
-    if (frame >= play->at + n) {
-      break;
+typedef struct {
+  const PlaySource* source;
+  PlayResult* result;
+  float* frames;
+  uint64_t end;   // Where to stop at the latest
+  uint64_t quiet; // Silent frames in a row
+  int shown;      // Progress [percent]; below 0: none yet
+  bool is_done;
+} Play;
+
+/* Take the frames of a block up to the last one of all; how many there are. */
+static uint32_t take_frames(Play* self, uint32_t n) {
+  const PlaySource* const source = self->source;
+  const uint64_t needed_quiet =
+      source->ends_silent ? to_frames(SILENCE_S, source->rate_hz) : UINT64_MAX;
+  uint32_t i = 0;
+  while (i < n && !self->is_done) {
+    const uint64_t frame = self->result->n_frames + i;
+    const float* const pair = self->frames + 2 * (size_t)i++;
+    if (!isfinite(pair[0]) || !isfinite(pair[1])) {
+      (void)fail(self->result->error, "found sound that is not finite at %.6f s, expected numbers",
+                 (double)frame / source->rate_hz);
+      return 0;
     }
-    if (!host_atom(play->host, (uint32_t)(frame - play->at), play->song->type_uri, event.body,
-                   event.size)) {
-      return fail(play, "%s", host_error(play->host));
-    }
+    const float loudest = fmaxf(fabsf(pair[0]), fabsf(pair[1]));
+    self->result->peak = fmaxf(self->result->peak, loudest);
+    self->quiet = frame >= source->n_frames && loudest < SILENCE ? self->quiet + 1 : 0;
+    self->is_done = self->quiet >= needed_quiet || frame + 1 >= self->end;
   }
-  return true;
+  return i;
 }
 
-static bool run(Play* play, uint32_t n) {
+static bool play_block(Play* self, SoundFile* sound) {
+  const PlaySource* const source = self->source;
+  PlayResult* const result = self->result;
+  const uint64_t left = self->end - result->n_frames;
+  const uint32_t n = left < source->block ? (uint32_t)left : source->block;
   const double start_s = now_s();
-  const bool is_run = host_run(play->host, n);
-  play->result->run_s += now_s() - start_s;
-  return is_run || fail(play, "%s", host_error(play->host));
-}
-
-/* Take over one frame of the outputs: n-th of the block. */
-static bool take_frame(Play* play, uint32_t i) {
-  const float left = play->left[i];
-  const float right = play->right[i];
-  const uint64_t frame = play->at + i;
-  if (!isfinite(left) || !isfinite(right)) {
-    return fail(play, "found sound that is not finite at %.6f s, expected numbers",
-                (double)frame / play->how->rate_hz);
-  }
-  float* const out = play->frames + 2 * (size_t)i;
-  out[0] = left;
-  out[1] = right;
-  const float loudest = fmaxf(fabsf(left), fabsf(right));
-  play->result->peak = fmaxf(play->result->peak, loudest);
-  play->quiet = frame >= play->song_frames && loudest < SILENCE ? play->quiet + 1 : 0;
-  play->is_done = play->quiet >= play->needed_quiet || frame + 1 >= play->end;
-  return true;
-}
-
-static bool play_block(Play* play) {
-  const uint64_t left = play->end - play->at;
-  const uint32_t n = left < play->how->block ? (uint32_t)left : play->how->block;
-  if (!queue_events(play, n) || !run(play, n)) {
+  if (!source->run(source->self, result->n_frames, n, self->frames, result->error)) {
     return false;
   }
-  uint32_t n_taken = 0;
-  while (n_taken < n && !play->is_done) {
-    if (!take_frame(play, n_taken++)) {
+  result->run_s += now_s() - start_s;
+  const uint32_t n_taken = take_frames(self, n);
+  result->n_frames += n_taken;
+  return n_taken > 0 &&
+         (soundfile_write(sound, self->frames, n_taken) ||
+          fail(result->error,
+               "sound not written: the disk is full, or a WAV file would pass 4 GiB"));
+}
+
+static void show_progress(Play* self) {
+  const double done = (double)self->result->n_frames / (double)self->source->n_frames;
+  const int percent = done < 1.0 ? (int)(100.0 * done) : 100;
+  if (self->source->shows_progress && percent != self->shown) {
+    (void)fprintf(stderr, "\r%3d %%", percent);
+    self->shown = percent;
+  }
+}
+
+bool play(const PlaySource* source, SoundFile* sound, PlayResult* result) {
+  Play self = {.source = source, .result = result, .shown = -1};
+  *result = (PlayResult){0};
+  self.end = source->n_frames + source->n_tail;
+  self.end += self.end == 0;
+  self.frames = calloc(source->block, 2 * sizeof(float));
+  if (!self.frames) {
+    return fail(result->error, "out of memory");
+  }
+  bool is_ok = soundfile_has_room(sound, source->n_frames) ||
+               fail(result->error, "found a length of %.0f s, expected a WAV file below 4 GiB",
+                    (double)source->n_frames / source->rate_hz);
+  while (is_ok && !self.is_done) {
+    is_ok = is_interrupted() ? fail(result->error, "interrupted") : play_block(&self, sound);
+    show_progress(&self);
+  }
+  if (self.shown >= 0) {
+    (void)fprintf(stderr, "\r     \r");
+  }
+  free(self.frames);
+  return is_ok;
+}
+
+static bool send_events(PlaySong* song, uint64_t at, uint32_t n) {
+  for (; song->n_sent < song->n_events; ++song->n_sent) {
+    const PlayEvent event = song->event(song->events, song->n_sent);
+    const uint64_t frame = to_frames(event.time_s, song->rate_hz);
+    if (frame >= at + n) {
+      break;
+    }
+    if (!host_atom(song->host, (uint32_t)(frame - at), song->type_uri, event.body, event.size)) {
       return false;
     }
   }
-  if (!soundfile_write(play->sound, play->frames, n_taken)) {
-    return fail(play, "sound not written: the disk is full, or a WAV file would pass 4 GiB");
-  }
-  play->at += n_taken;
   return true;
 }
 
-static void show_progress(const Play* play, int* shown) {
-  const double done = (double)play->at / (double)play->song_frames;
-  const int percent = done < 1.0 ? (int)(100.0 * done) : 100;
-  if (play->how->shows_progress && percent != *shown) {
-    (void)fprintf(stderr, "\r%3d %%", percent);
-    *shown = percent;
+static bool
+run_song(void* self, uint64_t at, uint32_t n, float* frames, char error[PLAY_ERROR_SIZE]) {
+  PlaySong* const song = (PlaySong*)self;
+  const float* const left = host_output(song->host, 0);
+  const float* const second = host_output(song->host, 1);
+  const float* const right = second ? second : left;
+  if (!left) {
+    return fail(error, "found no audio output, expected one or two");
   }
+  if (!send_events(song, at, n) || !host_run(song->host, n)) {
+    return fail(error, "%s", host_error(song->host));
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    frames[2 * (size_t)i] = left[i];
+    frames[2 * (size_t)i + 1] = right[i];
+  }
+  return true;
 }
 
-static bool play_all(Play* play) {
-  int shown = -1;
-  bool is_ok = true;
-  while (is_ok && !play->is_done) {
-    is_ok = is_interrupted() ? fail(play, "interrupted") : play_block(play);
-    show_progress(play, &shown);
-  }
-  if (shown >= 0) {
-    (void)fprintf(stderr, "\r     \r");
-  }
-  play->result->n_frames = play->at;
-  return is_ok;
+PlaySource play_song(PlaySong* song, uint32_t block, double tail_s) {
+  const bool has_tail = tail_s >= 0.0;
+  return (PlaySource){.self = song,
+                      .run = run_song,
+                      .rate_hz = song->rate_hz,
+                      .block = block,
+                      .n_frames = to_frames(song->duration_s, song->rate_hz),
+                      .n_tail = to_frames(has_tail ? tail_s : MAX_TAIL_S, song->rate_hz),
+                      .ends_silent = !has_tail};
 }
 
-static void plan_end(Play* play) {
-  const PlaySong* const song = play->song;
-  const double last_s = song->n_events ? song->event(song->song, song->n_events - 1).time_s : 0.0;
-  const bool has_tail = play->how->tail_s >= 0;
-  const double tail_s = has_tail ? play->how->tail_s : PLAY_MAX_TAIL_S;
-  play->song_frames = to_frames(last_s, play->how->rate_hz) + 1;
-  play->end = play->song_frames + to_frames(tail_s, play->how->rate_hz);
-  play->needed_quiet = has_tail ? UINT64_MAX : to_frames(SILENCE_S, play->how->rate_hz);
-}
-
-static PlayEvent midi_event(const void* song, size_t i) {
-  const MidiEvent* const event = &((const MidiFile*)song)->events[i];
+static PlayEvent smf_event(const void* events, size_t i) {
+  const SmfEvent* const event = (const SmfEvent*)events + i;
   return (PlayEvent){event->time_s, event->bytes, event->size};
 }
 
-PlaySong play_midi(const MidiFile* file) {
-  return (PlaySong){LV2_MIDI__MidiEvent, file, file->n_events, midi_event};
-}
-
-bool play(Host* host,
-          const PlaySong* song,
-          const PlayHow* how,
-          SoundFile* sound,
-          PlayResult* result,
-          char* error,
-          size_t error_size) {
-  Play self = {.host = host,
-               .song = song,
-               .how = how,
-               .sound = sound,
-               .result = result,
-               .error = error,
-               .error_size = error_size};
-  *result = (PlayResult){0};
-  self.left = host_output(host, 0);
-  self.right = host_n_outputs(host) > 1 ? host_output(host, 1) : self.left;
-  if (!self.left) {
-    return fail(&self, "found no audio output, expected one or two");
-  }
-  self.frames = calloc(how->block, 2 * sizeof(float));
-  if (!self.frames) {
-    return fail(&self, "out of memory");
-  }
-  plan_end(&self);
-  const bool is_ok = play_all(&self);
-  free(self.frames);
-  return is_ok;
+PlaySong play_smf(const Smf* smf) {
+  return (PlaySong){.type_uri = LV2_MIDI__MidiEvent,
+                    .events = smf->events,
+                    .n_events = smf->n_events,
+                    .event = smf_event,
+                    .duration_s = smf->duration_s};
 }

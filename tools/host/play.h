@@ -1,16 +1,51 @@
 /**
-   A song through a host into a sound file.
+   What sounds, block by block into a sound file: a song through a host, or anything else.
 */
 #ifndef HOOKE_TOOLS_HOST_PLAY_H
 #define HOOKE_TOOLS_HOST_PLAY_H
 
-#include "tools/formats/midifile.h"
+#include "tools/formats/smf.h"
 #include "tools/formats/soundfile.h"
 #include "tools/host/host.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+enum { PLAY_ERROR_SIZE = 512 };
+
+/** What sounds. */
+typedef struct {
+  void* self;
+  /** Write the next frames, left and right in turn, and say why in `error` where that fails. */
+  bool (*run)(void* self, uint64_t at, uint32_t n, float* frames, char error[PLAY_ERROR_SIZE]);
+  double rate_hz;
+  uint32_t block;      ///< Most frames that are asked for at once [frames], > 0
+  uint64_t n_frames;   ///< To its end
+  uint64_t n_tail;     ///< Most frames behind that
+  bool ends_silent;    ///< Whether a tail is over once it is silent
+  bool shows_progress; ///< On stderr
+} PlaySource;
+
+/** What came of it. */
+typedef struct {
+  uint64_t n_frames;           ///< Written [frames]
+  float peak;                  ///< Greatest magnitude of a sample, full scale is 1
+  double run_s;                ///< Time spent in the source [s]
+  char error[PLAY_ERROR_SIZE]; ///< One line, on failure
+} PlayResult;
+
+/**
+   Write a source to its end.
+
+   The sound is as long as the source and its tail, but has one frame at least. Silence is a quarter
+   of a second below −100 dBFS in the tail; the frame where it is full is the last one.
+   @param sound        Where the sound goes
+   @param[out] result  All but the error is undefined on failure
+   @return false if a run or a write fails, the sound is not finite, memory is out, or SIGINT or
+   SIGTERM, if blocked by the caller, is pending.
+*/
+bool play(const PlaySource* source, SoundFile* sound, PlayResult* result);
 
 /** An event of a song. */
 typedef struct {
@@ -19,53 +54,28 @@ typedef struct {
   uint32_t size;    ///< [bytes]
 } PlayEvent;
 
-/** What is played. */
+/** A song, and a host to play it. */
 typedef struct {
+  Host* host;
+  double rate_hz;       ///< The host's [Hz]
   const char* type_uri; ///< Of the atoms that are sent
-  const void* song;
+  const void* events;
   size_t n_events;
-  PlayEvent (*event)(const void* song, size_t i); ///< The i-th in order of time
+  PlayEvent (*event)(const void* events, size_t i); ///< The i-th in order of time
+  double duration_s;                                ///< To its end [s], not before the last event
+  size_t n_sent;                                    ///< Events sent so far
 } PlaySong;
 
-/** How to play. */
-typedef struct {
-  double rate_hz; ///< The host's [Hz]
-  uint32_t block; ///< Frames in a run [frames], 1 … max_block of the host
-  double tail_s; ///< Sound after the last event [s]; below 0: until silent, at most PLAY_MAX_TAIL_S
-  bool shows_progress; ///< On stderr
-} PlayHow;
-
-/** What came of it. */
-typedef struct {
-  uint64_t n_frames; ///< Written [frames]
-  float peak;        ///< Greatest magnitude of a sample, full scale is 1
-  double run_s;      ///< Time spent in the plugin [s]
-} PlayResult;
-
-/** @return The file as play() takes it, good as long as the file is */
-PlaySong play_midi(const MidiFile* file);
-
-/** The longest tail when none is asked for [s]. */
-#define PLAY_MAX_TAIL_S 10.0
+/** @return The events of a file as those of a song, good as long as the file is */
+PlaySong play_smf(const Smf* smf);
 
 /**
-   Play a song, each event on the frame nearest to its time.
-
-   Silence is a quarter of a second below −100 dBFS after the last event; the frame where it is
-   full is the last one. Nothing here depends on the block but the plugin.
-   @param sound        Where the sound goes
-   @param[out] result  Undefined on failure
-   @param[out] error   One line, on failure
-   @param error_size   Room in `error` [bytes]
-   @return false if a run or a write fails, the sound is not finite, memory is out, or SIGINT or
-   SIGTERM, if blocked by the caller, is pending.
+   @param song    Its host is run, in blocks of at most what the host was made for, and each event
+   sent on the frame nearest to its time; what it has at its very end is only heard in a tail.
+   Nothing here depends on the block but the plugin.
+   @param tail_s  Sound after the end [s]; below 0: until silent, at most 10 s
+   @return The source that the song is, good as long as it is
 */
-bool play(Host* host,
-          const PlaySong* song,
-          const PlayHow* how,
-          SoundFile* sound,
-          PlayResult* result,
-          char* error,
-          size_t error_size);
+PlaySource play_song(PlaySong* song, uint32_t block, double tail_s);
 
 #endif
