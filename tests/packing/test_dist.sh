@@ -49,7 +49,7 @@ unset LV2_PATH
 export CFLAGS="$quick"
 
 # For this user, then for all.
-must "$name" configure --user --no-tests build install
+must "$name" configure --user build install
 files_below home >found
 installed .local/bin .lv2 .local/share/man >wanted
 cmp -s found wanted || fail "installed for the user: $(diff wanted found)"
@@ -67,7 +67,7 @@ must "$name" uninstall
 same "$(find home -mindepth 1)" '' 'what is left of the user'
 
 mkdir -p usr/lib
-must "$name" configure --prefix="$dir/usr" --no-tests install
+must "$name" configure --prefix="$dir/usr" install
 files_below usr >found
 installed bin lib/lv2 share/man >wanted
 cmp -s found wanted || fail "installed for all: $(diff wanted found)"
