@@ -19,9 +19,10 @@ The rest lies in tools/packing.py (installing, packing), tools/cross.py (other m
 
 import json
 import os
+import shutil
 import subprocess
 
-from tests import fuzzing, memcheck, runner
+from tests import allowed, fuzzing, memcheck, runner
 from tools import cross, packing
 from waflib import Build, Configure, Context, Errors, Options
 
@@ -230,7 +231,7 @@ def make_programs(bld):
     turtle = [bld.bldnode.find_or_declare('hooke.lv2/' + node.name.replace('.in', ''))
               for node in bld.path.ant_glob(['ttl/*.ttl', 'ttl/*.ttl.in', 'presets/*.ttl'])]
     table = bld.bldnode.find_or_declare('plugin/programs_table.c')
-    bld(rule='"${SRC[0].abspath()}" "%s" "${TGT[0].abspath()}"' % turtle[0].parent.abspath(),
+    bld(rule=lambda task: task.exec_command([maker.abspath(), turtle[0].parent.abspath(), table.abspath()]),
         source=[maker] + turtle, target=table)
     return table
 
@@ -357,7 +358,8 @@ def render_demo(bld):
             bld.fatal('the demo was not rendered')
 
 
-# The built bundle and the specifications are what a host sees, whatever else is installed.
+# The built bundle and the specifications are what a host sees, whatever else is installed. Numbers have a decimal point in any
+# country, and what a test makes can be run, which is more than some allow below /tmp.
 def run_environment(bld):
     build_dir = bld.bldnode.abspath()
     env = dict(os.environ)
@@ -366,6 +368,8 @@ def run_environment(bld):
     env['HOOKE_BIN'] = os.path.join(build_dir, 'hooke')
     env['HOOKE_SOURCE'] = bld.path.abspath()
     env['WAFDIR'] = os.path.dirname(os.path.dirname(Context.__file__))
+    env['LC_ALL'] = 'C'
+    env['TMPDIR'] = os.path.join(build_dir, 'tests', 'tmp')
     env.setdefault('UBSAN_OPTIONS', 'print_stacktrace=1')
     if bld.options.long:
         env['HOOKE_TEST_LONG'] = '1'
@@ -379,7 +383,11 @@ def run_tests(bld):
     environment = run_environment(bld)
     if bld.options.valgrind:
         programs = memcheck.wrap(programs, environment, bld.bldnode.abspath())
-    results = runner.run_all(programs, bld.bldnode.abspath(), environment, bld.jobs, timeout)
+    shutil.rmtree(environment['TMPDIR'], ignore_errors=True)
+    os.makedirs(environment['TMPDIR'])
+    for_scripts = allowed.restrict(environment, bld.path.make_node('waf').abspath(), bld.bldnode.make_node('tests/programs').abspath())
+    environments = {name: for_scripts if name.endswith('.sh') else environment for name, _ in programs}
+    results = runner.run_all(programs, bld.bldnode.abspath(), environments, bld.jobs, timeout)
     failed = [result['name'] for result in results if result['counts']['FAILED']]
     if failed:
         bld.fatal('failed: ' + ' '.join(failed))

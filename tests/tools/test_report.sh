@@ -16,7 +16,7 @@ figures='03 04 05 08 09 10 11 12 13 14 15 16 17 18 19 21 31 32'
 errors='pitch decay partials partials-stiff noise'
 
 well_formed() {
-    if command -v xmllint >/dev/null 2>&1; then
+    if has xmllint; then
         xmllint --noout --nonet "$1"
     else
         python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' "$1"
