@@ -7,8 +7,12 @@ set -u
 
 . "$HOOKE_SOURCE/tests/hosts/claims.sh"
 
-needs ardour7-lua ardour
-needs ardour7-export ardour
+# Its programs have its version in their names; 7, 8 and 9 were tried.
+version=9
+has ardour$version-lua || version=8
+has ardour$version-lua || version=7
+needs ardour$version-lua ardour
+needs ardour$version-export ardour
 needs python3 python3
 
 session=$dir/session
@@ -27,8 +31,13 @@ moment() {
     awk -v t="$1" -v track="$2" 'BEGIN { printf "%.9g", t + (track == "Guitar" ? 4 : 0) }'
 }
 
+# Ardour 8 aborts in half of its tries to open a session by a script, in a functor of its own, before it has come to a plugin.
 ardour() {
-    timeout --foreground -k 10 $patience ardour7-lua "$hosts/ardour.lua" "$@" >said 2>&1
+    for _ in 1 2 3 4 5 6; do
+        timeout --foreground -k 10 $patience ardour$version-lua "$hosts/ardour.lua" "$@" >said 2>&1
+        grep -q 'FATAL: exception not rethrown' said || break
+        echo '    once more'
+    done
     grep -q "^DONE" said || fail "ardour.lua $1: $(cat said)"
 }
 
@@ -39,9 +48,9 @@ export_session() {
     for _ in 1 2 3 4 5; do
         rm -f export "$1"
         HOOKE_WATCH_LOG=$dir/export LD_PRELOAD=$built/watch.so \
-            timeout --foreground -k 10 $patience ardour7-export -b float -o "$dir/$1" "$session" song >said 2>&1
+            timeout --foreground -k 10 $patience ardour$version-export -b float -o "$dir/$1" "$session" song >said 2>&1
         if ! test -s "$1" -a -s export; then
-            fail "ardour7-export: $(cat said)"
+            fail "ardour-export: $(cat said)"
             return
         fi
         grep -q '^urn:hooke:strings .* notes=3 place=448 ' export && grep -q '^urn:hooke:guitar .* notes=3 place=960 ' export && break
@@ -71,7 +80,7 @@ make_session() {
         for setting in $by_hand; do
             set -- "$@" "Strings:$setting" "Guitar:$setting"
         done
-        timeout --foreground -k 10 $patience ardour7-lua "$hosts/ardour.lua" "$@" >made 2>&1
+        timeout --foreground -k 10 $patience ardour$version-lua "$hosts/ardour.lua" "$@" >made 2>&1
         grep -q '^DONE' made && break
         echo '    once more'
     done
