@@ -88,6 +88,7 @@ def configure(conf):
     know_new_options(conf)
     cross.prepare(conf, check_package)
     conf.load('compiler_c')
+    check_compiler(conf)
     packing.set_directories(conf)
     check_libraries(conf)
     set_flags(conf)
@@ -113,6 +114,23 @@ def know_new_options(conf):
     for name in CONFIGURE_OPTIONS:
         if not hasattr(conf.options, name):
             setattr(conf.options, name, None)
+
+
+# What the chains' loops are written with.
+VECTORS = '''
+typedef float Vector __attribute__((vector_size(16)));
+typedef int Whole __attribute__((vector_size(16)));
+Vector turn(Vector a) { return __builtin_shufflevector(a, a, 1, 2, 3, 0); }
+Whole whole(Vector a) { return __builtin_convertvector(a, Whole); }
+int main(void) { return whole(turn((Vector){0}))[0]; }
+'''
+
+
+def check_compiler(conf):
+    if ':' in conf.path.abspath():
+        conf.fatal('hosts cannot be shown a bundle below %s: LV2_PATH has colons between directories' % conf.path.abspath())
+    conf.check_cc(fragment=VECTORS, msg='Checking for vectors', features='c',
+                  errmsg='none: gcc has them from version 12 on, clang from 13; choose one with CC=')
 
 
 # The bundle can be built always. What tests alone need is looked for when they are built.
