@@ -31,9 +31,11 @@ moment() {
     awk -v t="$1" -v track="$2" 'BEGIN { printf "%.9g", t + (track == "Guitar" ? 4 : 0) }'
 }
 
-# Ardour 8 aborts in half of its tries to open a session by a script, in a functor of its own, before it has come to a plugin.
+# Ardour 8 aborts in half of the scripts that open a session, in a functor of its own; so it may try again. What is watched of
+# the last try is in `live`.
 ardour() {
     for _ in 1 2 3 4 5 6; do
+        rm -f live
         timeout --foreground -k 10 $patience ardour$version-lua "$hosts/ardour.lua" "$@" >said 2>&1
         grep -q 'FATAL: exception not rethrown' said || break
         echo '    once more'
@@ -171,7 +173,8 @@ a_session_saved_again_is_exported_alike_to_the_bit() {
 
 # Ardour's stop and locate send note-offs alone; its bypass is the port `enabled`.
 no_note_sticks_when_it_is_cut_short() {
-    HOOKE_WATCH_LOG=$dir/watched LD_PRELOAD=$built/watch.so ardour live "$session" Strings@0 Guitar@4
+    HOOKE_WATCH_LOG=$dir/live LD_PRELOAD=$built/watch.so ardour live "$session" Strings@0 Guitar@4
+    cat live >>watched
     same "$(grep -c '^DID' said)" 8 'gestures that ended in silence'
 }
 
