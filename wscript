@@ -19,8 +19,8 @@ The rest lies in tools/packing.py (installing, packing), tools/cross.py (other m
 
 import json
 import os
-import shutil
 import subprocess
+import tempfile
 
 from tests import allowed, fuzzing, memcheck, runner
 from tools import cross, packing
@@ -377,7 +377,7 @@ def render_demo(bld):
 
 
 # The built bundle and the specifications are what a host sees, whatever else is installed. Numbers have a decimal point in any
-# country, and what a test makes can be run, which is more than some allow below /tmp.
+# country.
 def run_environment(bld):
     build_dir = bld.bldnode.abspath()
     env = dict(os.environ)
@@ -387,7 +387,6 @@ def run_environment(bld):
     env['HOOKE_SOURCE'] = bld.path.abspath()
     env['WAFDIR'] = os.path.dirname(os.path.dirname(Context.__file__))
     env['LC_ALL'] = 'C'
-    env['TMPDIR'] = os.path.join(build_dir, 'tests', 'tmp')
     env.setdefault('UBSAN_OPTIONS', 'print_stacktrace=1')
     if bld.options.long:
         env['HOOKE_TEST_LONG'] = '1'
@@ -401,11 +400,12 @@ def run_tests(bld):
     environment = run_environment(bld)
     if bld.options.valgrind:
         programs = memcheck.wrap(programs, environment, bld.bldnode.abspath())
-    shutil.rmtree(environment['TMPDIR'], ignore_errors=True)
-    os.makedirs(environment['TMPDIR'])
-    for_scripts = allowed.restrict(environment, bld.path.make_node('waf').abspath(), bld.bldnode.make_node('tests/programs').abspath())
-    environments = {name: for_scripts if name.endswith('.sh') else environment for name, _ in programs}
-    results = runner.run_all(programs, bld.bldnode.abspath(), environments, bld.jobs, timeout)
+    # Not in /tmp, for there are systems that let nothing run there which a test has made.
+    with tempfile.TemporaryDirectory(prefix='run.', dir=bld.bldnode.make_node('tests').abspath(), ignore_cleanup_errors=True) as own:
+        environment['TMPDIR'] = own
+        for_scripts = allowed.restrict(environment, bld.path.make_node('waf').abspath(), os.path.join(own, 'programs'))
+        environments = {name: for_scripts if name.endswith('.sh') else environment for name, _ in programs}
+        results = runner.run_all(programs, bld.bldnode.abspath(), environments, bld.jobs, timeout)
     failed = [result['name'] for result in results if result['counts']['FAILED']]
     if failed:
         bld.fatal('failed: ' + ' '.join(failed))

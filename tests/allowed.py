@@ -6,14 +6,13 @@ can do without, it looks for with `has` or `needs` of tests/support/claims.sh, a
 
 import os
 import re
-import shutil
 import subprocess
 
 FIELDS = ['db:Status-Status', 'Package', 'Essential', 'Priority', 'Pre-Depends', 'Depends', 'Provides']
 
 
 def restrict(environment, launcher, directory):
-    """Let PATH be `directory`, with links to these programs, and HOOKE_SEARCH what it was.
+    """Let PATH be the new `directory`, with links to these programs, and HOOKE_SEARCH what it was.
 
     Without dpkg nobody knows what a program belongs to, and all may be called.
     """
@@ -22,7 +21,6 @@ def restrict(environment, launcher, directory):
         packages = installed_packages()
     except (OSError, subprocess.CalledProcessError):
         return environment
-    shutil.rmtree(directory, ignore_errors=True)
     os.makedirs(directory)
     owned = programs_of(with_dependencies(listed_packages(launcher), packages))
     wanted = environment.get('CC', '').split() + environment.get('AR', '').split()

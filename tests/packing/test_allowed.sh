@@ -19,7 +19,7 @@ import os, sys
 from tests import allowed
 allowed.restrict(dict(os.environ, PATH=os.environ['HOOKE_SEARCH']), sys.argv[1], 'links')
 END
-    ls links
+    ls links && rm -r links
 }
 
 allowed "$HOOKE_SOURCE/waf" >all
