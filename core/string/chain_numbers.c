@@ -124,7 +124,8 @@ static void leave_fixed(Chain* chain) {
   point_to(chain, CHAIN_FLOAT);
 }
 
-/* NOLINTNEXTLINE(misc-no-recursion): chain_hold() comes here for CHAIN_FIXED, and is called for another. */
+/* Not without end: chain_hold() comes here for CHAIN_FIXED, and is called for another. */
+/* NOLINTNEXTLINE(misc-no-recursion) */
 static void enter_fixed(Chain* chain, const ChainWhole* whole) {
   chain_hold(chain, CHAIN_FLOAT);
   point_to(chain, CHAIN_FIXED);
