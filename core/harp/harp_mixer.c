@@ -94,8 +94,9 @@ mix_down(Harp* harp, const HarpReading* reading, uint32_t n_frames, float* left,
     const float level = ramp_next(&harp->level);
     const float fade = ramp_next(&harp->pickups.fade);
     for (uint32_t s = 0; s < n_sides; ++s) {
-      const float now = harp->mix[s][n]; /* NOLINT(clang-analyzer-core.NullDereference): s < 2 */
+      const float now = harp->mix[s][n];
       const float old = reading->is_fading ? harp->mix[n_sides + s][n] : now;
+      /* There are two at most.  NOLINTNEXTLINE(clang-analyzer-core.NullDereference) */
       sides[s][n] = level * (old + fade * (now - old));
     }
   }
