@@ -22,10 +22,11 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 
-from tests import fuzzing, memcheck, runner
+from tests import allowed, fuzzing, memcheck, runner
 from tools import cross, packing
-from waflib import Build, Configure, Context, Options
+from waflib import Build, Configure, Context, Errors, Options
 
 APPNAME = 'hooke'
 VERSION = '0.2.0'
@@ -62,7 +63,7 @@ SANITIZED = 'sanitized'
 WHOLE = ['-Wl,-z,defs', '-static-libgcc']
 
 # What is fixed by `configure` and cannot be changed by a later command.
-CONFIGURE_OPTIONS = ['prefix', 'lv2dir', 'user', 'debug', 'sanitize', 'werror', 'no_tests', 'cross']
+CONFIGURE_OPTIONS = ['prefix', 'lv2dir', 'user', 'debug', 'sanitize', 'werror', 'cross']
 
 
 # Options and configuration
@@ -78,7 +79,6 @@ def options(opt):
                    help='configure, test: ASan and UBSan, stopping at the first error; test: in build/sanitized')
     opt.add_option('--valgrind', action='store_true', help='test: under valgrind')
     opt.add_option('--werror', action='store_true', help='configure: let a warning fail the build')
-    opt.add_option('--no-tests', action='store_true', help='configure: leave out the programs that are only tests')
     opt.add_option('--long', action='store_true', help='test: run the long versions of the tests as well')
     opt.add_option('--only', default='', metavar='WORD', help='test: run those with one of WORD,WORD,… in their name')
     opt.add_option('--timeout', type=int, metavar='S', help='test: let each program take S seconds [600; --long, --sanitize, --valgrind: 3600]')
@@ -90,8 +90,8 @@ def configure(conf):
     know_new_options(conf)
     cross.prepare(conf, check_package)
     conf.load('compiler_c')
+    check_compiler(conf)
     packing.set_directories(conf)
-    choose_parts(conf)
     check_libraries(conf)
     set_flags(conf)
     conf.env.CHOICES = {name: getattr(conf.options, name) for name in CONFIGURE_OPTIONS}
@@ -118,17 +118,30 @@ def know_new_options(conf):
             setattr(conf.options, name, None)
 
 
-# The bundle always.
-def choose_parts(conf):
-    conf.env.WITH_TOOLS = not conf.options.cross or bool(conf.env.CROSS_SYSTEM)
-    conf.env.WITH_TESTS = conf.env.WITH_TOOLS and not conf.options.no_tests
+# What the chains' loops are written with.
+VECTORS = '''
+typedef float Vector __attribute__((vector_size(16)));
+typedef int Whole __attribute__((vector_size(16)));
+Vector turn(Vector a) { return __builtin_shufflevector(a, a, 1, 2, 3, 0); }
+Whole whole(Vector a) { return __builtin_convertvector(a, Whole); }
+int main(void) { return whole(turn((Vector){0}))[0]; }
+'''
 
 
+def check_compiler(conf):
+    if ':' in conf.path.abspath():
+        conf.fatal('hosts cannot be shown a bundle below %s: LV2_PATH has colons between directories' % conf.path.abspath())
+    conf.check_cc(fragment=VECTORS, msg='Checking for vectors', features='c',
+                  errmsg='none: gcc has them from version 12 on, clang from 13; choose one with CC=')
+
+
+# The bundle can be built always. What tests alone need is looked for when they are built.
 def check_libraries(conf):
+    conf.env.WITH_TOOLS = not conf.options.cross or bool(conf.env.CROSS_SYSTEM)
     for lib in ['m', 'dl', 'pthread']:
         conf.check_cc(lib=lib, uselib_store=lib.upper(), mandatory=lib == 'm')
     for_tools = ['lilv-0', 'sndfile', 'lapack'] if conf.env.WITH_TOOLS else []
-    for package in ['lv2'] + for_tools + (['cmocka'] if conf.env.WITH_TESTS else []):
+    for package in ['lv2'] + for_tools:
         check_package(conf, package)
     if conf.options.cross and not conf.env.CROSS_SYSTEM:
         cross.use_lv2_headers(conf)
@@ -181,14 +194,12 @@ def add_sanitizers(conf):
 
 
 def build(bld):
-    """compiles everything into build/"""
+    """compiles the bundle and the program into build/, and no tests"""
     refuse_late_options(bld)
     build_core(bld)
     build_bundle(bld)
     if bld.env.WITH_TOOLS:
         build_tools(bld)
-    if bld.env.WITH_TESTS:
-        build_tests(bld)
     bld.add_post_fun(link_bundle)
     bld.add_post_fun(write_compile_commands)
     if bld.is_install:
@@ -225,7 +236,6 @@ def build_bundle(bld):
         bld.shlib(source=sources + [make_programs(bld)], target='hooke.lv2/hooke', name='hooke_plugin', env=env,
                   install_path=bundle, install_path_implib=None,
                   use='hooke_core LV2 M PTHREAD', linkflags=bld.env.PLUGIN_LINKFLAGS)
-    library(bld, 'hooke_parts', sources, use='hooke_core LV2 M')
     for node in bld.path.ant_glob(['ttl/*.ttl', 'presets/*.ttl']):
         bld(features='subst', is_copy=True, source=node, target='hooke.lv2/' + node.name, install_path=bundle)
     for node in bld.path.ant_glob('ttl/*.ttl.in'):
@@ -241,7 +251,7 @@ def make_programs(bld):
     turtle = [bld.bldnode.find_or_declare('hooke.lv2/' + node.name.replace('.in', ''))
               for node in bld.path.ant_glob(['ttl/*.ttl', 'ttl/*.ttl.in', 'presets/*.ttl'])]
     table = bld.bldnode.find_or_declare('plugin/programs_table.c')
-    bld(rule='"${SRC[0].abspath()}" "%s" "${TGT[0].abspath()}"' % turtle[0].parent.abspath(),
+    bld(rule=lambda task: task.exec_command([maker.abspath(), turtle[0].parent.abspath(), table.abspath()]),
         source=[maker] + turtle, target=table)
     return table
 
@@ -252,6 +262,7 @@ def library_ending(bld):
 
 def build_tools(bld):
     defines = ['HOOKE_VERSION="%s"' % VERSION, 'HOOKE_LV2DIR="%s"' % bld.env.LV2DIR]
+    library(bld, 'hooke_parts', bld.path.ant_glob('plugin/*.c'), use='hooke_core LV2 M')
     use = 'hooke_parts hooke_analysis hooke_core LILV SNDFILE LV2 M DL PTHREAD'
     library(bld, 'hooke_tools', bld.path.ant_glob('tools/*/*.c', excl=['tools/commands/main.c', 'tools/make/*.c']), use=use, defines=defines)
     for node in bld.path.ant_glob('tools/commands/main.c'):
@@ -260,6 +271,7 @@ def build_tools(bld):
 
 
 def build_tests(bld):
+    find_cmocka(bld)
     use = 'hooke_parts hooke_tools hooke_analysis hooke_core CMOCKA LILV SNDFILE LAPACK LV2 M DL PTHREAD'
     helpers = bld.path.ant_glob('tests/support/*.c', excl=['tests/*/test_*.c', 'tests/*/plant_*.c'])
     library(bld, 'hooke_helpers', helpers, use=use + ' HELPERS')
@@ -278,6 +290,15 @@ def build_tests(bld):
     fuzzing.build_replays(bld, use)
 
 
+# Here and not by configure, which is content without it if nothing is tested.
+def find_cmocka(bld):
+    try:
+        flags = bld.cmd_and_log(bld.env.PKGCONFIG + ['--cflags', '--libs', 'cmocka'], quiet=Context.BOTH)
+    except Errors.WafError:
+        bld.fatal('the tests need cmocka, which pkg-config does not find')
+    bld.parse_flags(flags, 'CMOCKA')
+
+
 # A static library fit for the plugin as well; none when there is nothing to put into it.
 def library(bld, name, sources, **more):
     if sources:
@@ -292,16 +313,20 @@ def link_bundle(bld):
         os.symlink('../hooke.lv2', link.abspath())
 
 
-# For clangd, clang-tidy and their like. A task run with its execution stubbed out only notes its command.
+# For clangd, clang-tidy and their like. A task run with its execution stubbed out only notes its command. What an earlier
+# command has built besides, tests say, stays known.
 def write_compile_commands(bld):
     directory = bld.bldnode.abspath()
-    entries = []
+    account = bld.bldnode.make_node('compile_commands.json')
+    known = json.loads(account.read()) if account.exists() else []
+    entries = {entry['file']: entry for entry in known if os.path.exists(entry['file'])}
     for task in all_tasks(bld):
         if type(task).__name__ == 'c':
             task.exec_command = lambda *args, **kw: 0
             task.run()
-            entries.append({'directory': directory, 'file': task.inputs[0].abspath(), 'arguments': task.last_cmd})
-    bld.bldnode.make_node('compile_commands.json').write(json.dumps(entries, indent=2) + '\n')
+            source = task.inputs[0].abspath()
+            entries[source] = {'directory': directory, 'file': source, 'arguments': task.last_cmd}
+    account.write(json.dumps(list(entries.values()), indent=2) + '\n')
 
 
 def all_tasks(bld):
@@ -334,6 +359,9 @@ class ReportContext(Build.BuildContext):
 def test(bld):
     """builds, then runs all tests, or with --only some of them"""
     build(bld)
+    if not bld.env.WITH_TOOLS:
+        bld.fatal('nothing can be tested without the libraries of %s' % bld.env.CHOICES['cross'])
+    build_tests(bld)
     if any(name.startswith('fuzz_') for name, _ in test_programs(bld)):
         fuzzing.build(bld, ANALYSIS, AVX2)
     bld.add_post_fun(run_tests)
@@ -378,7 +406,8 @@ def draw_report(bld, directory):
     bld.fatal('found no python3 with matplotlib and numpy: install python3-matplotlib and python3-numpy')
 
 
-# The built bundle and the specifications are what a host sees, whatever else is installed.
+# The built bundle and the specifications are what a host sees, whatever else is installed. Numbers have a decimal point in any
+# country.
 def run_environment(bld):
     build_dir = bld.bldnode.abspath()
     env = dict(os.environ)
@@ -387,6 +416,7 @@ def run_environment(bld):
     env['HOOKE_BIN'] = os.path.join(build_dir, 'hooke')
     env['HOOKE_SOURCE'] = bld.path.abspath()
     env['WAFDIR'] = os.path.dirname(os.path.dirname(Context.__file__))
+    env['LC_ALL'] = 'C'
     env.setdefault('UBSAN_OPTIONS', 'print_stacktrace=1')
     if bld.options.long:
         env['HOOKE_TEST_LONG'] = '1'
@@ -400,7 +430,12 @@ def run_tests(bld):
     environment = run_environment(bld)
     if bld.options.valgrind:
         programs = memcheck.wrap(programs, environment, bld.bldnode.abspath())
-    results = runner.run_all(programs, bld.bldnode.abspath(), environment, bld.jobs, timeout)
+    # Not in /tmp, for there are systems that let nothing run there which a test has made.
+    with tempfile.TemporaryDirectory(prefix='run.', dir=bld.bldnode.make_node('tests').abspath(), ignore_cleanup_errors=True) as own:
+        environment['TMPDIR'] = own
+        for_scripts = allowed.restrict(environment, bld.path.make_node('waf').abspath(), os.path.join(own, 'programs'))
+        environments = {name: for_scripts if name.endswith('.sh') else environment for name, _ in programs}
+        results = runner.run_all(programs, bld.bldnode.abspath(), environments, bld.jobs, timeout)
     failed = [result['name'] for result in results if result['counts']['FAILED']]
     if failed:
         bld.fatal('failed: ' + ' '.join(failed))
@@ -410,7 +445,6 @@ def run_tests(bld):
 
 def test_programs(bld):
     compiled = [node.name[:-len('.c')] for node in bld.path.ant_glob('tests/*/test_*.c')]
-    compiled = compiled if bld.env.WITH_TESTS else []
     run = bld.env.CROSS_RUN
     programs = [(name, run + [bld.bldnode.make_node('tests/' + name).abspath()]) for name in compiled]
     if not bld.env.CHOICES['cross']:
@@ -426,3 +460,8 @@ def dist(ctx):
     """packs the tracked files into hooke-<version>.tar.xz"""
     ctx.algo = 'tar.xz'
     ctx.files = packing.files_to_pack(ctx)
+
+
+def distcheck(ctx):
+    """is a test here: ./waf test --long --only=test_dist"""
+    ctx.fatal('the archive is checked by `./waf test --long --only=test_dist`')

@@ -1,6 +1,7 @@
 """The tests under valgrind; the wscript's `test --valgrind` is made of it."""
 
 import os
+import shlex
 
 COMMAND = ['valgrind', '-q', '--error-exitcode=99', '--leak-check=full', '--errors-for-leak-kinds=definite',
            '--show-leak-kinds=definite']
@@ -23,7 +24,7 @@ def wrap(programs, environment, directory):
     """
     program = os.path.join(directory, 'hooke-valgrind')
     with open(program, 'w', encoding='utf-8') as script:
-        script.write('#!/bin/sh\nexec %s "%s" "$@"\n' % (' '.join(COMMAND), environment['HOOKE_BIN']))
+        script.write('#!/bin/sh\nexec %s "$@"\n' % shlex.join(COMMAND + [environment['HOOKE_BIN']]))
     os.chmod(program, 0o755)
     environment['HOOKE_BIN'] = program
     environment['HOOKE_SLOWDOWN'] = SLOWDOWN

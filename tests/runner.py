@@ -11,18 +11,18 @@ from concurrent.futures import ThreadPoolExecutor
 SKIP = 77
 
 
-def run_all(programs, directory, environment, jobs, timeout_s):
+def run_all(programs, directory, environments, jobs, timeout_s):
     """Run (name, command) pairs in `directory`, `jobs` at a time, those named test_speed… alone; report each.
 
-    The logs go to tests/NAME.log under `directory`. A result is a dictionary: name, counts (PASSED, FAILED, SKIPPED),
-    trouble (why it failed, if not by its tests, or was skipped), output, seconds.
+    `environments` has one for each name. The logs go to tests/NAME.log under `directory`. A result is a dictionary: name,
+    counts (PASSED, FAILED, SKIPPED), trouble (why it failed, if not by its tests, or was skipped), output, seconds.
     """
     alone = [program for program in programs if program[0].startswith('test_speed')]
     side_by_side = [program for program in programs if program not in alone]
     running = set()
 
     def run(program):
-        result = run_test(directory, environment, timeout_s, running, *program)
+        result = run_test(directory, environments[program[0]], timeout_s, running, *program)
         report(result)
         return result
 

@@ -5,7 +5,7 @@ import os
 
 from waflib import Build, Context, Errors
 
-# Left out of an archive made where git cannot say what is tracked.
+# Left out of an archive made where there is no git to say what is tracked.
 UNTRACKED = ['build', '.git', '.waf-cache', '.lock-waf*', 'hooke-*.tar.*', '**/__pycache__']
 
 
@@ -24,8 +24,10 @@ def set_directories(conf):
 def keep_account_of_directories(bld):
     """Let an install note the directories that it makes, and an uninstall remove just those, if they are empty.
 
-    waf would remove each directory which it has emptied, be it the system's or the user's own.
+    waf would remove each directory which it has emptied, be it the system's or the user's own. The directories can be
+    read by all, whatever the umask, as the files that waf installs can.
     """
+    os.umask(0o022)
     account = bld.bldnode.make_node('made-directories.json')
     made = set(json.loads(account.read())) if account.exists() else set()
     bundle = os.path.join(bld.env.LV2DIR, 'hooke.lv2')
@@ -65,17 +67,21 @@ def missing_above(path):
 
 
 def files_to_pack(ctx):
-    """Return what `dist` packs: what git tracks or, in a tree unpacked from such an archive, what is not made here."""
-    return tracked_files(ctx) or ctx.path.ant_glob('**', excl=UNTRACKED)
+    """Return what `dist` packs: what git tracks or, in a tree unpacked from such an archive, what is not made here.
+
+    Such a tree has no .git, even if it lies inside another project's.
+    """
+    if os.path.exists(os.path.join(ctx.path.abspath(), '.git')):
+        return tracked_files(ctx)
+    return ctx.path.ant_glob('**', excl=UNTRACKED)
 
 
-# None in a tree that was itself unpacked from such an archive, even if that lies inside another project's.
+# Git would say nothing of another user's checkout. But who packs that runs its scripts, and so may run its git.
 def tracked_files(ctx):
-    if not os.path.exists(os.path.join(ctx.path.abspath(), '.git')):
-        return []
     try:
-        names = ctx.cmd_and_log(['git', 'ls-files', '-z'], quiet=Context.BOTH).split('\0')
-    except Errors.WafError:
-        return []
+        names = ctx.cmd_and_log(['git', '-c', 'safe.directory=*', 'ls-files', '-z'], quiet=Context.BOTH).split('\0')
+    except Errors.WafError as error:
+        said = (getattr(error, 'stderr', '').strip() or 'it cannot be run').splitlines()[0]
+        ctx.fatal('only git knows what of this checkout is to be packed: git: ' + said)
     nodes = [ctx.path.find_node(name) for name in names if name]
-    return [node for node in nodes if node]
+    return [node for node in nodes if node] or ctx.fatal('git tracks none of these files: there is nothing to pack')

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Masses that the finger is on, those to a side that B reaches, and all that are looked at. */
-enum { N_FINGER = 4, REACH = 3, N_NEAR = N_FINGER + 2 * REACH };
+enum { N_FINGER = 4, N_HALF = N_FINGER / 2, REACH = 3, N_NEAR = N_FINGER + 2 * REACH };
 
 /* What is near the finger: mass `first` + i of the string is at [i]; masses count from 1, and what
  * is at 0 or past N is a wall. */
@@ -52,7 +52,7 @@ static double product(const double* a, const double* b) {
 
 /* Mass i's share of a finger that is `t` past the middle of them: Lagrange's. */
 static double share_of(int i, double t) {
-  const double at = t + N_FINGER / 2 - 1;
+  const double at = t + N_HALF - 1;
   double share = 1.0;
   for (int k = 0; k < N_FINGER; ++k) {
     share *= k != i ? (at - k) / (i - k) : 1.0;
@@ -77,7 +77,7 @@ static void lay(const Near* near, double t, double* place) {
 void finger_act(Chain* chain, double place, double weight) {
   const double at = place * (chain->n_masses + 1.0);
   const double mass = fmin(floor(at), (double)chain->n_masses);
-  const Near near = {(int64_t)mass - (N_FINGER / 2 - 1) - REACH, chain->n_masses};
+  const Near near = {(int64_t)mass - (N_HALF - 1) - REACH, chain->n_masses};
   double e[N_NEAR] = {0};
   double b[N_NEAR];
   double u[N_NEAR] = {0};

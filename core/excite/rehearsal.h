@@ -28,7 +28,7 @@ enum { REHEARSAL_PARTIALS = 20 };
    @param n_masses  Of the string that is to be struck, ≥ 1
    @param angle1    Its fundamental's digital angular frequency [rad per sample], 0 to π
 */
-HammerMake rehearsal_make(uint32_t n_masses, Strike strike, double angle1);
+HammerMake rehearsal_make(uint32_t n_masses, Strike wanted, double angle1);
 
 /**
    Find what a strike pushes each mode by, squared, of the first's.
@@ -37,7 +37,7 @@ HammerMake rehearsal_make(uint32_t n_masses, Strike strike, double angle1);
    @return How many modes there are: n_masses or REHEARSAL_PARTIALS, if that is less
 */
 uint32_t rehearsal_spectrum(uint32_t n_masses,
-                            Strike strike,
+                            Strike wanted,
                             double angle1,
                             double shares[REHEARSAL_PARTIALS]);
 

@@ -1,4 +1,4 @@
--- What the tests do with Ardour's sessions; run by its ardour7-lua.
+-- What the tests do with Ardour's sessions; run by its ardour7-lua, or that of a later version.
 --
 --   ardour.lua make DIRECTORY TRACK=URI... [TRACK.preset=LABEL] [TRACK:LABEL=VALUE]... [TRACK@LABEL=S:VALUE,S:VALUE...]...
 --       a new session, with a track for each plugin, a preset, values, and lanes of automation

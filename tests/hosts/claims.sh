@@ -10,21 +10,11 @@ hosts=$HOOKE_SOURCE/tests/hosts     # scripts
 built=${HOOKE_BIN%/*}/tests/hosts   # programs
 patience=240                        # seconds that a program of a host's may take on a busy machine
 
-skip() {
-    echo "skipped: $*"
-    exit 77
-}
-
-# needs PROGRAM PACKAGE
-needs() {
-    command -v "$1" >/dev/null || skip "there is no $1; on Debian: apt-get install $2"
-}
+. "$HOOKE_SOURCE/tests/support/claims.sh"
 
 if nm -D "$HOOKE_BUNDLE/hooke.so" 2>/dev/null | grep -q __asan_; then
     skip 'the plugin was built with sanitizers, which hosts were not'
 fi
-
-. "$HOOKE_SOURCE/tests/support/claims.sh"
 
 # Nothing of the user's is read or written, and no screen is needed.
 export XDG_CONFIG_HOME="$HOME/config" XDG_CACHE_HOME="$HOME/cache" XDG_DATA_HOME="$HOME/data"

@@ -7,8 +7,12 @@ set -u
 
 . "$HOOKE_SOURCE/tests/hosts/claims.sh"
 
-needs ardour7-lua ardour
-needs ardour7-export ardour
+# Its programs have its version in their names; 7, 8 and 9 were tried.
+version=9
+has ardour$version-lua || version=8
+has ardour$version-lua || version=7
+needs ardour$version-lua ardour
+needs ardour$version-export ardour
 needs python3 python3
 
 session=$dir/session
@@ -27,8 +31,15 @@ moment() {
     awk -v t="$1" -v track="$2" 'BEGIN { printf "%.9g", t + (track == "Guitar" ? 4 : 0) }'
 }
 
+# Ardour 8 aborts in half of the scripts that open a session, in a functor of its own; so it may try again. What is watched of
+# the last try is in `live`.
 ardour() {
-    timeout --foreground -k 10 $patience ardour7-lua "$hosts/ardour.lua" "$@" >said 2>&1
+    for _ in 1 2 3 4 5 6; do
+        rm -f live
+        timeout --foreground -k 10 $patience ardour$version-lua "$hosts/ardour.lua" "$@" >said 2>&1
+        grep -q 'FATAL: exception not rethrown' said || break
+        echo '    once more'
+    done
     grep -q "^DONE" said || fail "ardour.lua $1: $(cat said)"
 }
 
@@ -39,9 +50,9 @@ export_session() {
     for _ in 1 2 3 4 5; do
         rm -f export "$1"
         HOOKE_WATCH_LOG=$dir/export LD_PRELOAD=$built/watch.so \
-            timeout --foreground -k 10 $patience ardour7-export -b float -o "$dir/$1" "$session" song >said 2>&1
+            timeout --foreground -k 10 $patience ardour$version-export -b float -o "$dir/$1" "$session" song >said 2>&1
         if ! test -s "$1" -a -s export; then
-            fail "ardour7-export: $(cat said)"
+            fail "ardour-export: $(cat said)"
             return
         fi
         grep -q '^urn:hooke:strings .* notes=3 place=448 ' export && grep -q '^urn:hooke:guitar .* notes=3 place=960 ' export && break
@@ -71,7 +82,7 @@ make_session() {
         for setting in $by_hand; do
             set -- "$@" "Strings:$setting" "Guitar:$setting"
         done
-        timeout --foreground -k 10 $patience ardour7-lua "$hosts/ardour.lua" "$@" >made 2>&1
+        timeout --foreground -k 10 $patience ardour$version-lua "$hosts/ardour.lua" "$@" >made 2>&1
         grep -q '^DONE' made && break
         echo '    once more'
     done
@@ -162,7 +173,8 @@ a_session_saved_again_is_exported_alike_to_the_bit() {
 
 # Ardour's stop and locate send note-offs alone; its bypass is the port `enabled`.
 no_note_sticks_when_it_is_cut_short() {
-    HOOKE_WATCH_LOG=$dir/watched LD_PRELOAD=$built/watch.so ardour live "$session" Strings@0 Guitar@4
+    HOOKE_WATCH_LOG=$dir/live LD_PRELOAD=$built/watch.so ardour live "$session" Strings@0 Guitar@4
+    cat live >>watched
     same "$(grep -c '^DID' said)" 8 'gestures that ended in silence'
 }
 

@@ -141,9 +141,9 @@ keep() {
     "$built/keep" "$uri" "$preset" state "$@" || fail "no state of $uri"
 }
 
-# value SYMBOL
+# value SYMBOL: the newest, for what was told before may stand there as well
 value() {
-    awk -v symbol="$1" '$1 == symbol { print $3 }' values
+    awk -v symbol="$1" '$1 == symbol { print $3; exit }' values
 }
 
 # render_song OUT SYMBOL=VALUE...: what our own renderer makes of the song

@@ -20,7 +20,7 @@ unset CC AR CFLAGS LDFLAGS
 
 can_cross() {
     for tool in "$@"; do
-        command -v "$tool" >/dev/null || {
+        has "$tool" || {
             echo "left out: there is no $tool"
             return 1
         }
@@ -28,7 +28,7 @@ can_cross() {
     n_done=$((n_done + 1))
 }
 
-if can_cross $windows-gcc $windows-objdump; then
+if can_cross $windows-gcc $windows-ar $windows-objdump; then
     copy_tree windows
     must windows configure --cross=$windows --werror --prefix=/usr
     must windows install --destdir="$dir/stage"
@@ -49,7 +49,7 @@ if can_cross $windows-gcc $windows-objdump; then
     ! grep -E 'vmov(ap[sd]|dqa).*ymm.*\(' code | head -n 3 | grep . || fail 'vectors are moved as if their place were fit'
 fi
 
-if can_cross $arm-gcc qemu-aarch64 && { test -d "$system" || { echo "left out: there is no $system" && false; }; }; then
+if can_cross $arm-gcc $arm-ar $arm-objdump qemu-aarch64 && { test -d "$system" || { echo "left out: there is no $system" && false; }; }; then
     copy_tree arm
     mkdir -p arm/.waf-cache && ln -s "$system" arm/.waf-cache/$arm
     must arm configure --cross=$arm --werror --prefix=/usr

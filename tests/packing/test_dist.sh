@@ -14,12 +14,34 @@ copy_tree tree
 mkdir -p tree/build tree/.waf-cache
 touch tree/build/x tree/.waf-cache/x tree/notes
 source_files >sources
-if command -v git >/dev/null; then
-    git -C tree init -q && git -C tree add -A && git -C tree rm -q --cached notes
+sed "s|^|$name/|" sources | LC_ALL=C sort >wanted
+packed() {
     must tree dist
     tar -tf "tree/$name.tar.xz" | grep -v '/$' | LC_ALL=C sort >packed
-    sed "s|^|$name/|" sources | LC_ALL=C sort >wanted
     cmp -s packed wanted || fail "packed: $(diff wanted packed)"
+}
+
+# A checkout of which git cannot tell, or of which nothing is tracked, is not packed.
+refused() {
+    ! in_tree tree dist || fail "packed without git's word"
+    grep -q "^$1" waf.log && ! grep -q Traceback waf.log || fail "said instead of '$1': $(cat waf.log)"
+}
+
+mkdir tree/.git
+refused 'only git knows what of this checkout is to be packed: git: '
+rmdir tree/.git
+if has git; then
+    git -C tree init -q
+    refused 'git tracks none of these files'
+    git -C tree add -A && git -C tree rm -q --cached notes
+    packed
+    # From a hook of another repository's, and in another user's checkout
+    (export GIT_DIR="$dir/none" GIT_INDEX_FILE="$dir/none" && packed && exit $((n_failed > 0))) || exit 1
+    if test "$(id -u)" = 0; then
+        chown -R 65534:65534 tree
+        packed
+        chown -R 0:0 tree
+    fi
 else
     rm tree/notes
     must tree dist
@@ -45,11 +67,16 @@ rm -r "$name/build" "$name/tests/__pycache__" "$name/.lock-waf_x" "$name/$name.t
 
 only_long 'building from the archive'
 
+# Where a shell that is not careful sees three words, a quote and a variable
+mkdir "it's a \$tree"
+mv "$name" "it's a \$tree"
+name="it's a \$tree/$name"
+
 unset LV2_PATH
 export CFLAGS="$quick"
 
 # For this user, then for all.
-must "$name" configure --user --no-tests build install
+must "$name" configure --user build install
 files_below home >found
 installed .local/bin .lv2 .local/share/man >wanted
 cmp -s found wanted || fail "installed for the user: $(diff wanted found)"
@@ -64,10 +91,10 @@ echo >>"$name/wscript"
 must "$name" build
 
 must "$name" uninstall
-same "$(find home -mindepth 1)" '' 'what is left of the user'
+same "$(find home -mindepth 1 ! -path 'home/.cache*')" '' 'what is left of the user'
 
 mkdir -p usr/lib
-must "$name" configure --prefix="$dir/usr" --no-tests install
+must "$name" configure --prefix="$dir/usr" install
 files_below usr >found
 installed bin lib/lv2 share/man >wanted
 cmp -s found wanted || fail "installed for all: $(diff wanted found)"

@@ -55,6 +55,11 @@ must "$HOOKE_SOURCE" uninstall --destdir="$stage"
 (cd "$stage" && find . | LC_ALL=C sort) >after
 cmp -s before after || fail "left or taken: $(diff before after)"
 
+# What one installs all can use, however private the files are that one makes oneself.
+(umask 077 && must "$HOOKE_SOURCE" install --destdir="$dir/private") || exit 1
+same "$(find private -type d ! -perm 755 -o ! -type d ! -perm 755 ! -perm 644)" '' 'what others cannot read'
+must "$HOOKE_SOURCE" uninstall --destdir="$dir/private"
+
 # A stage that was not there is gone again, and a file that someone laid into the bundle is not taken.
 must "$HOOKE_SOURCE" install --destdir="$dir/new/stage"
 echo mine >"$dir/new/stage$lv2/hooke.lv2/mine"

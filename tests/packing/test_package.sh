@@ -9,9 +9,10 @@ version=$(sed -n "s/^VERSION = '\(.*\)'$/\1/p" "$HOOKE_SOURCE/wscript")
 same "$(sed -n '1s/.*(\(.*\)).*/\1/p' "$HOOKE_SOURCE/debian/changelog")" "$version" 'the version in debian/changelog'
 
 only_long 'making a package'
-for tool in dpkg-buildpackage dh fakeroot; do
-    command -v $tool >/dev/null || skip "there is no $tool"
-done
+needs dpkg-buildpackage dpkg-dev
+needs dpkg-checkbuilddeps dpkg-dev
+needs dh debhelper
+needs fakeroot fakeroot
 (cd "$HOOKE_SOURCE" && dpkg-checkbuilddeps) 2>missing || skip "$(cat missing)"
 
 copy_tree tree
@@ -86,7 +87,7 @@ dpkg_there -P hooke
 there >after
 cmp -s before after || fail "left or taken by purge: $(diff before after)"
 
-if command -v lintian >/dev/null; then
+if has lintian; then
     lintian --fail-on error,warning --suppress-tags bogus-mail-host,initial-upload-closes-no-bugs \
         ./*.changes >lint 2>&1 || fail "lintian: $(cat lint)"
 else

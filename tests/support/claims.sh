@@ -19,6 +19,28 @@ export HOME
 search=$PATH # where the program looks for others
 n_failed=0
 
+# skip WHY: this test cannot be run here.
+skip() {
+    echo "skipped: $*"
+    exit 77
+}
+
+# has PROGRAM: whether there is this one, which no test can count on; if so it can be called from here on. It then finds what
+# else there is, which this test does not: PATH is that of tests/allowed.py, and HOOKE_SEARCH the whole.
+has() {
+    command -v "$1" >/dev/null && return
+    test -n "${HOOKE_SEARCH-}" && (PATH=$HOOKE_SEARCH && command -v "$1" >/dev/null) || return
+    mkdir -p "$dir/programs"
+    printf '%s\n' '#!/bin/sh' 'PATH=$HOOKE_SEARCH' 'exec "${0##*/}" "$@"' >"$dir/programs/$1"
+    chmod +x "$dir/programs/$1"
+    PATH=${PATH%:"$dir/programs"}:$dir/programs
+}
+
+# needs PROGRAM PACKAGE
+needs() {
+    has "$1" || skip "there is no $1; on Debian: apt-get install $2"
+}
+
 fail() {
     echo "FAILED: $*"
     n_failed=$((n_failed + 1))

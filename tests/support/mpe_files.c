@@ -68,18 +68,15 @@ static Sound read_wav(const char* path) {
 }
 
 Sound mpe_render(const char* name) {
-  char song[PATH_SIZE];
   char wav[2 * PATH_SIZE];
   char command[4 * PATH_SIZE];
   const ScalePath directory = scale_new_directory();
-  const char* const program = getenv("HOOKE_BIN");
-  assert_non_null(program);
-  find(song, name);
   (void)snprintf(wav, sizeof(wav), "%s/song.wav", directory.text);
-  const int n = snprintf(command, sizeof(command),
-                         "'%s' render --quiet --rate %d --tail 1 --set spread=0 --set pickup=0.45 "
-                         "--set pluck=0.4 '%s' '%s'",
-                         program, MPE_RATE, song, wav);
+  const int n =
+      snprintf(command, sizeof(command),
+               "\"$HOOKE_BIN\" render --quiet --rate %d --tail 1 --set spread=0 "
+               "--set pickup=0.45 --set pluck=0.4 \"$HOOKE_SOURCE/tests/mpe/%s.mid\" '%s'",
+               MPE_RATE, name, wav);
   assert_true(n > 0 && (size_t)n < sizeof(command));
   assert_int_equal(system(command), 0);
   const Sound sound = read_wav(wav);

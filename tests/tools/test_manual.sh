@@ -48,11 +48,11 @@ while read -r words; do
     eval "\"\$HOOKE_BIN\" $words" >log 2>&1 || fail "hooke $words: $(cat log)"
 done <shown
 
-if command -v mandoc >/dev/null; then
+if has mandoc; then
     said=$(mandoc -T lint -W warning "$page" 2>&1) || fail "mandoc: $said"
     sed 's/^\.El$//' "$page" >broken.1
     ! mandoc -T lint -W warning broken.1 >/dev/null 2>&1 || fail 'mandoc does not see a list without an end'
-elif command -v groff >/dev/null; then
+elif has groff; then
     said=$(groff -mdoc -Tutf8 -wall -z "$page" 2>&1)
     test -z "$said" || fail "groff: $said"
 else
