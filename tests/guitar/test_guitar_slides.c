@@ -177,7 +177,8 @@ static void vibrato_has_its_depth_and_its_mean(void** state) {
       guitar_vibrato(guitar, string, depth, vibratos[v][1]);
       guitars_run(guitar, n, sound + WAIT);
       for (uint32_t i = 0; i < n; ++i) {
-        const double now = depth * fmin(1.0, i / 192.0) * sin(turn * i);
+        const double share = exp2(depth * fmin(1.0, i / 192.0) / 12.0) - 1.0;
+        const double now = 12.0 * log2(1.0 + share * sin(turn * i));
         path_hz[WAIT + i] = guitars_tone(&patch, string, 3.0 + now).f0_hz;
       }
       follow(&track, WAIT, WAIT + n);
@@ -187,15 +188,15 @@ static void vibrato_has_its_depth_and_its_mean(void** state) {
       double mean = 0.0;
       for (uint32_t i = 0; i < n_looks; ++i) {
         swing += track.cents[i] * cexp(-J * turn * (track.middle[i] - (double)WAIT));
-        mean += track.cents[i];
+        mean += exp2(track.cents[i] / 1200.0) / n_looks;
       }
       worst_depth = fmax(worst_depth, cabs(swing) * 2.0 / n_looks / (100.0 * depth));
-      worst_mean = fmax(worst_mean, fabs(mean) / n_looks);
+      worst_mean = fmax(worst_mean, fabs(1200.0 * log2(mean)));
       guitar_free(guitar);
     }
   }
   assert_within("depth, relative", worst_depth, 0.02);
-  assert_within("cents of the mean", worst_mean, 0.05);
+  assert_within("cents of the mean frequency", worst_mean, 0.05);
 }
 
 int main(void) {
