@@ -187,7 +187,9 @@ bool bow_act(Bow* bow, Chain* chain) {
   settle(bow, &m);
   bow->rolled += roll * (bow->friction - spring * bow->rolled);
   contact_push(chain, &contact, bow->friction);
-  bow->before = after + contact.square * bow->friction;
+  const double now = after + contact.square * bow->friction;
+  bow->work = 0.5 * bow->friction * (now + bow->before);
+  bow->before = now;
   move_on(bow, chain);
   return bow->is_active;
 }

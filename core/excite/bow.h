@@ -64,6 +64,7 @@ typedef struct {
   double hair;     /**< b of the last step */
   double slip;     /**< v of the last step */
   double friction; /**< f of the last step, in h²/m */
+  double work;     /**< What it gave to the string in the last step, f eᵀ(u' + u)/2 */
   uint32_t n_lift; /**< Steps that it takes to lift it */
   BowState state;
   bool is_lifted;

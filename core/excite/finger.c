@@ -74,7 +74,7 @@ static void lay(const Near* near, double t, double* place) {
   }
 }
 
-void finger_act(Chain* chain, double place, double weight) {
+double finger_act(Chain* chain, double place, double weight) {
   const double at = place * (chain->n_masses + 1.0);
   const double mass = fmin(floor(at), (double)chain->n_masses);
   const Near near = {(int64_t)mass - (N_HALF - 1) - REACH, chain->n_masses};
@@ -88,10 +88,11 @@ void finger_act(Chain* chain, double place, double weight) {
   }
   const double inertia = product(e, b);
   if (!(inertia > 0.0)) {
-    return; /* At a wall there is nothing to touch. */
+    return 0.0; /* At a wall there is nothing to touch. */
   }
   const double damper = weight * 2.0 * sqrt(chain->now.k1);
-  const double taken = damper / (inertia + 0.5 * damper) * product(b, u) / inertia;
+  const double momentum = product(b, u);
+  const double taken = damper / (inertia + 0.5 * damper) * momentum / inertia;
   for (int64_t i = REACH; i < REACH + N_FINGER; ++i) {
     if (e[i] != 0.0) {
       const uint32_t m = (uint32_t)(near.first + i - 1);
@@ -100,4 +101,5 @@ void finger_act(Chain* chain, double place, double weight) {
                   (float)(u[i] + change));
     }
   }
+  return taken * (momentum - 0.5 * taken * inertia);
 }

@@ -27,7 +27,8 @@
 
    @param place   Fraction of the length, 0 to 1
    @param weight  0: no finger, to 1: one of twice the string's impedance
+   @return What it takes from H, ≥ 0
 */
-void finger_act(Chain* chain, double place, double weight);
+double finger_act(Chain* chain, double place, double weight);
 
 #endif

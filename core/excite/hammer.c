@@ -111,10 +111,13 @@ bool hammer_act(Hammer* hammer, Chain* chain) {
   const double before = hammer->before;
   Felt felt = hammer->make.felt;
   felt.stiffness *= hammer->hold * length;
+  const double speed_before = hammer->velocity - (hammer->now - before);
   hammer->before = hammer->now;
   hammer->force = felt_press(&felt, before, free, contact.square + 1.0 / mass, &hammer->now);
   hammer->velocity -= hammer->force / mass;
   hammer->position += hammer->velocity;
+  const double speed = hammer->velocity - (hammer->now - hammer->before);
+  hammer->work = 0.5 * hammer->force * (speed + speed_before);
   if (hammer->force > 0.0) {
     contact_push(chain, &contact, hammer->force);
   } else if (was_pressed) {

@@ -51,6 +51,7 @@ typedef struct {
   double now;      /**< Compression, c */
   double before;   /**< Compression a step ago */
   double force;    /**< f in the last step, ≥ 0, in h²/m */
+  double work;     /**< What it gave to the string in the last step, f eᵀ(u' + u)/2 */
   double hold;     /**< Share of the felt's stiffness that is left, 1 until its time is over */
   double fall;     /**< What it then loses a step */
   double far;      /**< Position behind which the string cannot reach it */

@@ -27,7 +27,8 @@ typedef struct {
    any number of masses and any rate.
 
    @param angle1  The fundamental's digital angular frequency 2πF/rate [rad per sample], 0 to π
+   @return What it adds to the energy of the chain, see chain_energy()
 */
-void pluck_add(Chain* chain, Pluck pluck, double angle1);
+double pluck_add(Chain* chain, Pluck pluck, double angle1);
 
 #endif

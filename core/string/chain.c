@@ -119,6 +119,31 @@ double chain_amplitude(const Chain* chain, double a1) {
   return sqrt(2.0 * energy / (half_step * (chain->n_masses + 1.0)));
 }
 
+/* Past a wall the string goes on upside down. */
+static double position_at(const Chain* chain, int64_t i) {
+  const int64_t n = chain->n_masses;
+  const int64_t inside = i < 0 ? -2 - i : i >= n ? 2 * n - i : i;
+  const bool is_mass = inside >= 0 && inside < n;
+  return is_mass ? (i == inside ? 1.0 : -1.0) * chain_numbers_position(chain, (uint32_t)inside)
+                 : 0.0;
+}
+
+double chain_energy(const Chain* chain) {
+  const StringCoefs c = chain->now;
+  double twice = 0.0;
+  for (int64_t i = 0; i < chain->n_masses; ++i) {
+    const double x = position_at(chain, i);
+    const double u = chain_numbers_velocity(chain, (uint32_t)i);
+    const double x1 = position_at(chain, i - 1) + position_at(chain, i + 1);
+    const double x2 = position_at(chain, i - 2) + position_at(chain, i + 2);
+    const double x3 = position_at(chain, i - 3) + position_at(chain, i + 3);
+    const double pull = c.k1 * (2.0 * x - x1) + c.k2 * (6.0 * x - 4.0 * x1 + x2) +
+                        c.k3 * (20.0 * x - 15.0 * x1 + 6.0 * x2 - x3);
+    twice += u * u + pull * (x - u);
+  }
+  return 0.5 * twice;
+}
+
 void chain_share(Chain* chain, bool is_shared) {
   chain->is_shared = is_shared;
   if (is_shared) {

@@ -98,6 +98,10 @@ void chain_place(Chain* chain, uint32_t i, float x, float u);
 /** Add `u` to the scaled velocity of mass `i`. */
 void chain_push(Chain* chain, uint32_t i, float u);
 
+/** The scheme's own energy, ½ Σ u² + ½ xᵀK (x − u), with the coefficients of now: of a standing
+ * chain without dampers it is constant to rounding. */
+double chain_energy(const Chain* chain);
+
 /**
    The amplitude of the fundamental if all the energy were in it:
 

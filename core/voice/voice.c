@@ -211,7 +211,8 @@ static void act_finger(Voice* voice) {
   const double coming = line_next(&finger->coming);
   const double going = fmin(1.0, (double)finger->n_left / voice->n_gesture);
   if (voice->is_awake) {
-    finger_act(&voice->chain, finger->place, going * coming);
+    voice->work -= finger_act(&voice->chain, finger->place, going * coming);
+    notice(voice);
   }
   if (--finger->n_left == 0) {
     line_set(&finger->coming, 0.0);
@@ -220,8 +221,14 @@ static void act_finger(Voice* voice) {
 
 /* The hammer, the bow and who listens to it; true if they have left, or set the string gliding. */
 static bool act_played(Voice* voice) {
-  hammer_act(&voice->hammer, &voice->chain);
-  bow_act(&voice->bow, &voice->chain);
+  if (voice->hammer.is_active) {
+    (void)hammer_act(&voice->hammer, &voice->chain);
+    voice->work += voice->hammer.work;
+  }
+  if (voice->bow.is_active) {
+    (void)bow_act(&voice->bow, &voice->chain);
+    voice->work += voice->bow.work;
+  }
   const bool is_gliding = intonation_hear(&voice->ear, &voice->chain, voice->bow.before);
   if (is_gliding) {
     tie_follow(&voice->tie, &voice->chain);
@@ -286,6 +293,7 @@ bool voice_string(Voice* voice, const VoiceAim* aim, uint32_t limit, uint32_t n_
   chain_set(&voice->chain, coefs);
   note_design(voice, target.tone.f0_hz, coefs);
   voice->n_strung = n_masses;
+  voice->work = 0.0;
   voice->given = 0.0;
   voice->lent = 0.0;
   voice->is_kept = false;
@@ -354,7 +362,7 @@ void voice_hand_over(Voice* from, Voice* to) {
 
 void voice_pluck(Voice* voice, Pluck pluck) {
   const double before = motion_of(voice);
-  pluck_add(&voice->chain, pluck, angle1_of(voice));
+  voice->work += pluck_add(&voice->chain, pluck, angle1_of(voice));
   chain_settle(&voice->chain);
   voice->loudest = 0.0;
   note_pluck(voice, before);
@@ -510,6 +518,14 @@ void voice_run(
     voice_pass(voice, n);
     done += n;
   }
+}
+
+double voice_energy(const Voice* voice) {
+  return voice->is_awake ? chain_energy(&voice->chain) : 0.0;
+}
+
+double voice_work(const Voice* voice) {
+  return voice->work;
 }
 
 void voice_lend(Voice* voice, double motion) {

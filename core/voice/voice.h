@@ -100,6 +100,7 @@ typedef struct {
   Tie tie;
 
   /* How long it lives */
+  double work;            /**< What all that played it has given it, see voice_work() */
   double given;           /**< VoiceMotion that was given to it: √ω times an amplitude */
   double lent;            /**< The same, that other strings may have given it */
   double loudest;         /**< Largest displacement seen since it was last plucked */
@@ -251,6 +252,19 @@ ChainTap voice_tap(const Voice* voice, const Pickup* pickup, double angle1);
 */
 void voice_run(
     Voice* voice, const Reading* reading, double angle1, uint32_t n_frames, float* const* out);
+
+/* Its energy, in the measure of chain_energy() */
+
+/** What it has now. */
+double voice_energy(const Voice* voice);
+
+/**
+   What plucks, hammers and bows have given it since it was strung, by their own forces, less what
+   fingers took: exact but for rounding while a hammer and a bow do not share a mass.  The rest of
+   its energy is what the movement of its coefficients did, and what other strings gave it by the
+   bridge, less what its dampers took.
+*/
+double voice_work(const Voice* voice);
 
 /* For what ties voices together */
 

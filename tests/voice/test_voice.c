@@ -1,6 +1,7 @@
 #include "core/voice/voice.h"
 
 #include "tests/support/oracle.h"
+#include "tests/support/random.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -166,6 +167,72 @@ static void swinging_tension_feeds_it_so_far_only(void** state) {
   assert_within("motion, over what it was given", most, 4.0 * 280.0 / 200.0);
 }
 
+/* Undamped, so that all that it has was given to it; by all that plays it, on what already rings.
+ */
+static void its_energy_is_what_played_it(void** state) {
+  (void)state;
+  double worst = 0.0;
+  Random random = random_start();
+  for (int trial = 0; trial < 40; ++trial) {
+    const double f0_hz = random_log_between(&random, 60.0, 1200.0);
+    VoiceAim aim = aim_of(f0_hz, HUGE_VAL);
+    aim.open.loss = 0.0;
+    aim.open.partials = (Partials)(trial % 3);
+    Voice voice;
+    lay(&voice);
+    assert_true(voice_string(&voice, &aim, CAPACITY, 0));
+    double most = 0.0;
+    for (int deed = 0; deed < 30; ++deed) {
+      const double place = random_between(&random, 0.05, 0.3);
+      const double hardness = random_between(&random, 0.0, 1.0);
+      switch (deed == 0 ? 0 : random_below(&random, 5)) {
+      case 0:
+        voice_pluck(&voice, (Pluck){place, hardness, 0.1});
+        break;
+      case 1:
+        voice_strike(&voice, (Strike){0.4, hardness, 0.25, 0.1});
+        break;
+      case 2:
+        voice_bow(&voice, (Stroke){0.12, 0.5, 0.1, 0.02, 0.02}, &aim.open);
+        voice.ear.is_active = false; /* It would move the string */
+        break;
+      case 3:
+        voice_lift_bow(&voice);
+        break;
+      default:
+        voice_touch(&voice, place, 300);
+        break;
+      }
+      run(&voice, 400);
+      most = fmax(most, voice_energy(&voice));
+      worst = fmax(worst, fabs(voice_energy(&voice) - voice_work(&voice)) / most);
+    }
+    assert_true(most > 0.0);
+  }
+  assert_within("of the most that it had", worst, 1e-5);
+}
+
+/* What coefficients do that move in time with it is in its energy, and not in what was given. */
+static void movement_gives_no_work(void** state) {
+  (void)state;
+  VoiceAim low = aim_of(200.0, HUGE_VAL);
+  VoiceAim high = aim_of(280.0, HUGE_VAL);
+  Voice voice;
+  lay(&voice);
+  assert_true(voice_string(&voice, &low, CAPACITY, 0));
+  voice_pluck(&voice, (Pluck){0.3, 0.3, 0.25});
+  const double given = voice_work(&voice);
+  assert_within("of what it was given", fabs(voice_energy(&voice) / given - 1.0), 1e-5);
+  double most = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    voice_aim(&voice, i % 2 ? &low : &high, 4);
+    run(&voice, 52);
+    most = fmax(most, voice_energy(&voice) / given);
+    assert_true(voice_work(&voice) == given);
+  }
+  assert_true(most > 1.5);
+}
+
 static void choked_it_sleeps_after_a_tenth_of_a_second(void** state) {
   (void)state;
   Voice voice;
@@ -206,6 +273,8 @@ int main(void) {
       cmocka_unit_test(retuned_it_arrives_and_has_its_motion),
       cmocka_unit_test(meshed_it_keeps_pitch_decay_and_motion),
       cmocka_unit_test(swinging_tension_feeds_it_so_far_only),
+      cmocka_unit_test(its_energy_is_what_played_it),
+      cmocka_unit_test(movement_gives_no_work),
       cmocka_unit_test(choked_it_sleeps_after_a_tenth_of_a_second),
       cmocka_unit_test(dies_at_120_db_below_its_loudest),
   };
