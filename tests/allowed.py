@@ -6,13 +6,14 @@ can do without, it looks for with `has` or `needs` of tests/support/claims.sh, a
 
 import os
 import re
+import shlex
 import subprocess
 
 FIELDS = ['db:Status-Status', 'Package', 'Essential', 'Priority', 'Pre-Depends', 'Depends', 'Provides']
 
 
 def restrict(environment, launcher, directory):
-    """Let PATH be the new `directory`, with links to these programs, and HOOKE_SEARCH what it was.
+    """Let PATH be the new `directory`, with these programs, and HOOKE_SEARCH what it was.
 
     Without dpkg nobody knows what a program belongs to, and all may be called.
     """
@@ -28,7 +29,7 @@ def restrict(environment, launcher, directory):
         for name in os.listdir(folder) if os.path.isdir(folder) else []:
             path = os.path.join(folder, name)
             if name in wanted or os.path.realpath(path) in owned:
-                link(path, os.path.join(directory, name))
+                stand_in(path, os.path.join(directory, name))
     return dict(environment, PATH=directory)
 
 
@@ -79,7 +80,8 @@ def programs_of(names):
     return {os.path.realpath(path) for path in told.splitlines() if re.search(r'/s?bin/', path)}
 
 
-def link(path, name):
-    if os.path.lexists(name):
-        os.remove(name)
-    os.symlink(path, name)
+# Not a link: there are programs that look for others where they were called, in any directory but one with a blank in its name.
+def stand_in(path, name):
+    with open(name, 'w', encoding='utf-8') as script:
+        script.write('#!/bin/sh\nexec %s "$@"\n' % shlex.quote(path))
+    os.chmod(name, 0o755)

@@ -65,7 +65,7 @@ grep -q 'LV2_PATH has colons' waf.log || fail "a path with a colon: $(cat waf.lo
 # A tree that is elsewhere now is configured anew.
 mv tree moved
 must moved configure
-same "$(sed -n "s|^top_dir = '\(.*\)'|\1|p" moved/.lock-waf*)" "$dir/moved" 'where the tree is now'
+same "$(sed -n "s|^top_dir = .\(.*\).$|\1|p" moved/.lock-waf*)" "$dir/moved" 'where the tree is now'
 
 # Another user's tree, in which root works: all of it stays that user's, who can go on. What root left otherwise is named.
 as_nobody() {

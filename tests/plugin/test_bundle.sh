@@ -18,9 +18,9 @@ for tool in lv2_validate sord_validate nm objdump; do
 done
 [ -e "$library" ] || { echo "failed: there is no $library"; exit 1; }
 
-# It succeeds, and says nothing of an error or a warning.
+# It succeeds, and says nothing of an error or a warning. It takes a path with a blank in it for two.
 is_valid() {
-  said=$(lv2_validate "$1"/*.ttl 2>&1) || return 1
+  said=$(cd "$1" && lv2_validate ./*.ttl 2>&1) || return 1
   ! echo "$said" | grep -Eiq 'error:|warning:|[1-9][0-9]* errors'
 }
 
