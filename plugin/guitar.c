@@ -116,8 +116,6 @@ static const InstrumentKind kind = {
     .n_ports = GUITAR_N_PORTS,
     .meters = GUITAR_PORT_SOUNDING,
     .limiter = GUITAR_PORT_LIMITER,
-    .programs = &guitar_programs,
-    .overlay_uri = GUITAR_URI "#overlay",
     .event_uri = GUITAR_EVENT_URI,
     .new = new_player,
     .free = free_player,
@@ -147,5 +145,4 @@ const LV2_Descriptor guitar_descriptor = {
     .activate = instrument_activate,
     .run = instrument_run,
     .cleanup = instrument_cleanup,
-    .extension_data = instrument_extension,
 };

@@ -4,9 +4,7 @@
    An InstrumentKind says what is its own.  Events split the block: the frames until an event are
    run before it is played.  The ports are read once a block, and so are new pitches of its keys.
 
-   A program change lays the values of a preset over the ports, each until the host moves its port,
-   and asks the host, if it offers that, to move them there.  What lies over the ports is kept in
-   the state; a state, and so a preset of the host's, that has nothing of that takes it away.
+   Presets are the host's: program changes and banks are ignored.
 
    Thread: as LV2 has it; all but instrument_new(), instrument_cleanup() and what the extensions
    lead to is real-time safe.
@@ -15,7 +13,6 @@
 #define HOOKE_PLUGIN_INSTRUMENT_H
 
 #include "plugin/ports.h"
-#include "plugin/programs.h"
 #include "plugin/tuner_urids.h"
 
 #include <lv2/core/lv2.h>
@@ -38,8 +35,6 @@ typedef struct {
   uint32_t meters;  /**< Index of the first of the three ports that report: strings sounding, their
                        masses and the headroom */
   uint32_t limiter; /**< Index of the port that turns the limiter on */
-  const ProgramTable* programs; /**< What program changes select */
-  const char* overlay_uri;      /**< What is laid over the ports is called, in a state */
   const char* event_uri; /**< Type of the atoms that `play_event` takes; NULL: there are none */
 
   /** Make a player at rest; NULL if there is no memory or the rate is no rate. */
@@ -86,10 +81,7 @@ void instrument_activate(LV2_Handle handle);
 void instrument_run(LV2_Handle handle, uint32_t n_frames);
 void instrument_cleanup(LV2_Handle handle);
 
-/** For one that has no tuner: its state. */
+/** For one that has a tuner: its state and its work. */
 const void* instrument_extension(const char* uri);
-
-/** For one that has: its state and its work. */
-const void* instrument_tuner_extension(const char* uri);
 
 #endif

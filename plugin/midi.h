@@ -22,14 +22,12 @@ typedef enum {
 
 /** Controllers. */
 enum {
-  MIDI_BANK_UPPER = 0, /**< Bank that programs are chosen from, upper seven bits */
   MIDI_VIBRATO = 1,
   MIDI_BREATH = 2,
   MIDI_DATA_UPPER = 6, /**< Data entry, upper seven bits */
   MIDI_VOLUME = 7,
   MIDI_EXPRESSION = 11,
-  MIDI_BANK_LOWER = 32, /**< Lower seven bits of the bank */
-  MIDI_DATA_LOWER = 38, /**< And of data entry */
+  MIDI_DATA_LOWER = 38, /**< And lower seven */
   MIDI_PEDAL = 64,
   MIDI_SOSTENUTO = 66,
   MIDI_SOFT_PEDAL = 67,

@@ -84,8 +84,6 @@ static const InstrumentKind kind = {
     .n_ports = STRINGS_N_PORTS,
     .meters = STRINGS_PORT_SOUNDING,
     .limiter = STRINGS_PORT_LIMITER,
-    .programs = &strings_programs,
-    .overlay_uri = STRINGS_URI "#overlay",
     .new = new_player,
     .free = free_player,
     .reset = reset,
@@ -115,5 +113,5 @@ const LV2_Descriptor strings_descriptor = {
     .activate = instrument_activate,
     .run = instrument_run,
     .cleanup = instrument_cleanup,
-    .extension_data = instrument_tuner_extension,
+    .extension_data = instrument_extension,
 };
