@@ -1,7 +1,7 @@
 #include "plugin/guitar_midi.h"
 
-#include "plugin/midi.h"
-#include "plugin/registered.h"
+#include "core/play/midi.h"
+#include "core/play/rpn.h"
 
 #include <math.h>
 
@@ -24,7 +24,7 @@ static void set_wheel(GuitarMidi* midi, uint32_t channel, double wheel) {
  * turned stays where it is, and bends by the new range. */
 static void enter_data(GuitarMidi* midi, uint32_t channel, uint32_t controller, uint32_t value) {
   GuitarChannel* const c = &midi->channels[channel];
-  if (c->parameter == REGISTERED_BEND_RANGE) {
+  if (c->parameter == RPN_BEND_RANGE) {
     const bool is_upper = controller == MIDI_DATA_UPPER;
     c->semitones = is_upper ? value : c->semitones;
     c->cents = is_upper ? 0 : value;
@@ -36,7 +36,7 @@ static void reset_controllers(GuitarMidi* midi, uint32_t channel) {
   guitarist_pedal(midi->guitarist, channel, false);
   guitarist_vibrato(midi->guitarist, channel, 0.0);
   guitar_palm(midi->guitar, 0.0);
-  midi->channels[channel].parameter = REGISTERED_NONE;
+  midi->channels[channel].parameter = RPN_NONE;
   set_wheel(midi, channel, 0.0);
 }
 
@@ -57,11 +57,11 @@ static void play_controller(GuitarMidi* midi, const MidiMessage* message) {
   case MIDI_SOFT_PEDAL:
     guitar_palm(midi->guitar, message->value / 127.0);
     break;
-  case MIDI_UNREGISTERED_LOWER:
-  case MIDI_UNREGISTERED_UPPER:
-  case MIDI_PARAMETER_LOWER:
-  case MIDI_PARAMETER_UPPER:
-    *chosen = registered_choose(*chosen, message->number, message->value);
+  case MIDI_NRPN_LOWER:
+  case MIDI_NRPN_UPPER:
+  case MIDI_RPN_LOWER:
+  case MIDI_RPN_UPPER:
+    *chosen = rpn_choose(*chosen, message->number, message->value);
     break;
   case MIDI_ALL_SOUND_OFF:
     guitarist_all_sound_off(midi->guitarist);
@@ -79,7 +79,7 @@ static void play_controller(GuitarMidi* midi, const MidiMessage* message) {
 
 void guitar_midi_reset(GuitarMidi* midi) {
   for (uint32_t i = 0; i < GUITARIST_CHANNELS; ++i) {
-    midi->channels[i] = (GuitarChannel){.semitones = USUAL_SEMITONES, .parameter = REGISTERED_NONE};
+    midi->channels[i] = (GuitarChannel){.semitones = USUAL_SEMITONES, .parameter = RPN_NONE};
   }
 }
 

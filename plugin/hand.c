@@ -1,6 +1,6 @@
 #include "plugin/hand.h"
 
-#include "plugin/registered.h"
+#include "core/play/rpn.h"
 
 #include <math.h>
 
@@ -11,8 +11,8 @@ static double clamp(double value, double low, double high) {
 void hand_reset(Hand* hand, uint32_t range_cents) {
   *hand = (Hand){
       .range_cents = range_cents,
-      .fine = REGISTERED_CENTRE,
-      .coarse = REGISTERED_CENTRE,
+      .fine = RPN_CENTRE,
+      .coarse = RPN_CENTRE,
       .breath = 1.0,
   };
 }
@@ -28,12 +28,12 @@ void hand_reset_controllers(Hand* hand) {
 }
 
 void hand_enter(Hand* hand, uint32_t parameter, uint32_t controller, uint32_t value) {
-  if (parameter == REGISTERED_BEND_RANGE) {
-    hand->range_cents = registered_enter(parameter, hand->range_cents, controller, value);
-  } else if (parameter == REGISTERED_FINE) {
-    hand->fine = registered_enter(parameter, hand->fine, controller, value);
-  } else if (parameter == REGISTERED_COARSE) {
-    hand->coarse = registered_enter(parameter, hand->coarse, controller, value);
+  if (parameter == RPN_BEND_RANGE) {
+    hand->range_cents = rpn_enter(parameter, hand->range_cents, controller, value);
+  } else if (parameter == RPN_FINE) {
+    hand->fine = rpn_enter(parameter, hand->fine, controller, value);
+  } else if (parameter == RPN_COARSE) {
+    hand->coarse = rpn_enter(parameter, hand->coarse, controller, value);
   }
 }
 
@@ -42,9 +42,9 @@ static double bent(const Hand* hand) {
 }
 
 static double tuned(const Hand* hand) {
-  const int fine = (int)hand->fine - REGISTERED_CENTRE;
-  const int coarse = (int)(hand->coarse >> 7) - (REGISTERED_CENTRE >> 7);
-  return coarse + (double)fine / REGISTERED_CENTRE;
+  const int fine = (int)hand->fine - RPN_CENTRE;
+  const int coarse = (int)(hand->coarse >> 7) - (RPN_CENTRE >> 7);
+  return coarse + (double)fine / RPN_CENTRE;
 }
 
 double hand_bend(const Hand* leader, const Hand* hand) {

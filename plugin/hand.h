@@ -19,7 +19,7 @@ typedef struct {
 /** All that is remembered of a hand. */
 typedef struct {
   double wheel;         /**< −1 to 1 */
-  uint32_t range_cents; /**< Of the wheel; this and the next two as plugin/registered.h counts */
+  uint32_t range_cents; /**< Of the wheel; this and the next two as core/play/rpn.h counts */
   uint32_t fine;
   uint32_t coarse;
   double pressure;   /**< Of all keys, 0 to 1 */

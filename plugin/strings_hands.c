@@ -1,6 +1,6 @@
 #include "plugin/strings_hands.h"
 
-#include "plugin/registered.h"
+#include "core/play/rpn.h"
 
 enum { USUAL_CENTS = 200, MEMBER_CENTS = 4800 };
 
@@ -153,7 +153,7 @@ static bool shares(const StringsHands* all, uint32_t hand, uint32_t other) {
 
 void strings_hands_enter(
     StringsHands* all, uint32_t hand, uint32_t parameter, uint32_t controller, uint32_t value) {
-  if (parameter != REGISTERED_BEND_RANGE && strings_hands_is_member(all, hand)) {
+  if (parameter != RPN_BEND_RANGE && strings_hands_is_member(all, hand)) {
     return;
   }
   for (uint32_t h = 0; h < ZONES_CHANNELS; ++h) {

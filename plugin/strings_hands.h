@@ -1,7 +1,7 @@
 /**
    The hands that play the harp, and what each hears of its zone's leader.
 
-   What is said to a leader is told to the harp of all hands that follow it, see plugin/zones.h.
+   What is said to a leader is told to the harp of all hands that follow it, see core/play/zones.h.
 
    Thread: audio; real-time safe.
 */
@@ -9,8 +9,8 @@
 #define HOOKE_PLUGIN_STRINGS_HANDS_H
 
 #include "core/harp/harp.h"
+#include "core/play/zones.h"
 #include "plugin/hand.h"
-#include "plugin/zones.h"
 
 #include <stdbool.h>
 #include <stdint.h>

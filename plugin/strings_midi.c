@@ -1,7 +1,7 @@
 #include "plugin/strings_midi.h"
 
-#include "plugin/midi.h"
-#include "plugin/registered.h"
+#include "core/play/midi.h"
+#include "core/play/rpn.h"
 
 #include <math.h>
 
@@ -26,7 +26,7 @@ static void swell(const StringsMidi* midi) {
 static void reset_controllers(StringsMidi* midi, uint32_t hand) {
   for (uint32_t channel = 0; channel < ZONES_CHANNELS; ++channel) {
     if (strings_hands_follows(&midi->hands, zones_hand(&midi->hands.zones, channel), hand)) {
-      midi->parameters[channel] = REGISTERED_NONE;
+      midi->parameters[channel] = RPN_NONE;
     }
   }
   strings_hands_reset_controllers(&midi->hands, hand);
@@ -45,12 +45,12 @@ static void enter_zone(StringsMidi* midi, const MidiMessage* message) {
 static void enter_data(StringsMidi* midi, uint32_t hand, const MidiMessage* message) {
   const uint32_t parameter = midi->parameters[message->channel];
   switch (parameter) {
-  case REGISTERED_BEND_RANGE:
-  case REGISTERED_FINE:
-  case REGISTERED_COARSE:
+  case RPN_BEND_RANGE:
+  case RPN_FINE:
+  case RPN_COARSE:
     strings_hands_enter(&midi->hands, hand, parameter, message->number, message->value);
     break;
-  case REGISTERED_ZONE:
+  case RPN_ZONE:
     enter_zone(midi, message);
     break;
   default:
@@ -101,9 +101,9 @@ static void play_leader(StringsMidi* midi, uint32_t hand, uint32_t controller, u
 
 static void play_controller(StringsMidi* midi, uint32_t hand, const MidiMessage* message) {
   uint32_t* const chosen = &midi->parameters[message->channel];
-  if (registered_is_choice(message->number)) {
-    *chosen = registered_choose(*chosen, message->number, message->value);
-  } else if (registered_is_entry(message->number)) {
+  if (rpn_is_choice(message->number)) {
+    *chosen = rpn_choose(*chosen, message->number, message->value);
+  } else if (rpn_is_entry(message->number)) {
     enter_data(midi, hand, message);
   } else if (message->number == MIDI_BRIGHTNESS) {
     const double brightness = (message->value - BRIGHTNESS_CENTRE) / BRIGHTNESS_REACH;
@@ -116,7 +116,7 @@ static void play_controller(StringsMidi* midi, uint32_t hand, const MidiMessage*
 void strings_midi_reset(StringsMidi* midi) {
   strings_hands_reset(&midi->hands);
   for (uint32_t channel = 0; channel < ZONES_CHANNELS; ++channel) {
-    midi->parameters[channel] = REGISTERED_NONE;
+    midi->parameters[channel] = RPN_NONE;
   }
   midi->volume = 1.0;
   midi->expression = 1.0;

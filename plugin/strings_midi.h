@@ -1,9 +1,9 @@
 /**
    MIDI messages to the harp.
 
-   Without zones (plugin/zones.h) all channels are one: the last message wins, whichever it came on.
-   In a zone each channel is a hand with its own wheel, pressure and brightness, and its leader's
-   messages are for the whole zone.
+   Without zones (core/play/zones.h) all channels are one: the last message wins, whichever it came
+   on. In a zone each channel is a hand with its own wheel, pressure and brightness, and its
+   leader's messages are for the whole zone.
 
    Thread: audio; real-time safe.
 */
@@ -21,7 +21,7 @@
 /** Who hears the messages, and what came before. */
 typedef struct {
   StringsHands hands;                  /**< With the harp */
-  uint32_t parameters[ZONES_CHANNELS]; /**< Chosen on each channel, see plugin/registered.h */
+  uint32_t parameters[ZONES_CHANNELS]; /**< Chosen on each channel, see core/play/rpn.h */
   double volume;                       /**< This and expression: gains of all strings, 0 to 1 */
   double expression;
 } StringsMidi;

@@ -1,4 +1,4 @@
-#include "plugin/zones.h"
+#include "core/play/zones.h"
 
 /* Channels that two zones can share out between their members. */
 enum { BETWEEN_LEADERS = ZONES_CHANNELS - 2 };

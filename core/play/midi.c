@@ -1,4 +1,4 @@
-#include "plugin/midi.h"
+#include "core/play/midi.h"
 
 /* Status bytes without their channel. */
 enum {

@@ -3,8 +3,8 @@
 
    Thread: any; real-time safe.
 */
-#ifndef HOOKE_PLUGIN_MIDI_H
-#define HOOKE_PLUGIN_MIDI_H
+#ifndef HOOKE_CORE_PLAY_MIDI_H
+#define HOOKE_CORE_PLAY_MIDI_H
 
 #include <stdint.h>
 
@@ -34,10 +34,10 @@ enum {
   MIDI_BRIGHTNESS = 74,
   MIDI_DATA_INCREMENT = 96,
   MIDI_DATA_DECREMENT = 97,
-  MIDI_UNREGISTERED_LOWER = 98, /**< Which parameter data entry is for: a maker's own */
-  MIDI_UNREGISTERED_UPPER = 99,
-  MIDI_PARAMETER_LOWER = 100, /**< Or a registered one */
-  MIDI_PARAMETER_UPPER = 101,
+  MIDI_NRPN_LOWER = 98, /**< Which parameter data entry is for: a maker's own */
+  MIDI_NRPN_UPPER = 99,
+  MIDI_RPN_LOWER = 100, /**< Or a registered one */
+  MIDI_RPN_UPPER = 101,
   MIDI_ALL_SOUND_OFF = 120,
   MIDI_RESET_CONTROLLERS = 121,
   MIDI_ALL_NOTES_OFF = 123, /**< And the mode messages after it */

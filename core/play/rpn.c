@@ -1,6 +1,6 @@
-#include "plugin/registered.h"
+#include "core/play/rpn.h"
 
-#include "plugin/midi.h"
+#include "core/play/midi.h"
 
 /* How the value of a parameter is counted. */
 typedef struct {
@@ -10,39 +10,39 @@ typedef struct {
 } Scale;
 
 static const Scale scales[] = {
-    [REGISTERED_BEND_RANGE] = {100, 1, REGISTERED_MOST_BEND_CENTS},
-    [REGISTERED_FINE] = {128, 1, 0x3FFF},
-    [REGISTERED_COARSE] = {128, 128, 0x3FFF},
+    [RPN_BEND_RANGE] = {100, 1, RPN_MOST_BEND_CENTS},
+    [RPN_FINE] = {128, 1, 0x3FFF},
+    [RPN_COARSE] = {128, 128, 0x3FFF},
 };
 
 static uint32_t least(uint32_t a, uint32_t b) {
   return a < b ? a : b;
 }
 
-bool registered_is_choice(uint32_t controller) {
-  return controller >= MIDI_UNREGISTERED_LOWER && controller <= MIDI_PARAMETER_UPPER;
+bool rpn_is_choice(uint32_t controller) {
+  return controller >= MIDI_NRPN_LOWER && controller <= MIDI_RPN_UPPER;
 }
 
-bool registered_is_entry(uint32_t controller) {
+bool rpn_is_entry(uint32_t controller) {
   return controller == MIDI_DATA_UPPER || controller == MIDI_DATA_LOWER ||
          controller == MIDI_DATA_INCREMENT || controller == MIDI_DATA_DECREMENT;
 }
 
-uint32_t registered_choose(uint32_t chosen, uint32_t controller, uint32_t value) {
+uint32_t rpn_choose(uint32_t chosen, uint32_t controller, uint32_t value) {
   switch (controller) {
-  case MIDI_PARAMETER_UPPER:
+  case MIDI_RPN_UPPER:
     return value << 7 | (chosen & 0x7F);
-  case MIDI_PARAMETER_LOWER:
+  case MIDI_RPN_LOWER:
     return (chosen & ~0x7Fu) | value;
-  case MIDI_UNREGISTERED_UPPER:
-  case MIDI_UNREGISTERED_LOWER:
-    return REGISTERED_NONE; /* Data entry is for one that we do not know. */
+  case MIDI_NRPN_UPPER:
+  case MIDI_NRPN_LOWER:
+    return RPN_NONE; /* Data entry is for one that we do not know. */
   default:
     return chosen;
   }
 }
 
-uint32_t registered_enter(uint32_t parameter, uint32_t old, uint32_t controller, uint32_t value) {
+uint32_t rpn_enter(uint32_t parameter, uint32_t old, uint32_t controller, uint32_t value) {
   const Scale scale = scales[parameter];
   switch (controller) {
   case MIDI_DATA_UPPER:

@@ -8,8 +8,8 @@
 
    Thread: any; real-time safe.
 */
-#ifndef HOOKE_PLUGIN_ZONES_H
-#define HOOKE_PLUGIN_ZONES_H
+#ifndef HOOKE_CORE_PLAY_ZONES_H
+#define HOOKE_CORE_PLAY_ZONES_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -6,31 +6,31 @@
 
    Thread: any; real-time safe.
 */
-#ifndef HOOKE_PLUGIN_REGISTERED_H
-#define HOOKE_PLUGIN_REGISTERED_H
+#ifndef HOOKE_CORE_PLAY_RPN_H
+#define HOOKE_CORE_PLAY_RPN_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
 /** Their numbers, of 14 bits. */
 enum {
-  REGISTERED_BEND_RANGE = 0, /**< Semitones above cents */
-  REGISTERED_FINE = 1,       /**< 1/8192 of 100 cents; 8192 is in tune */
-  REGISTERED_COARSE = 2,     /**< 1/128 semitone, of which whole semitones count; 8192 is in tune */
-  REGISTERED_ZONE = 6,       /**< Number of a zone's members, see plugin/zones.h */
-  REGISTERED_NONE = 0x3FFF
+  RPN_BEND_RANGE = 0, /**< Semitones above cents */
+  RPN_FINE = 1,       /**< 1/8192 of 100 cents; 8192 is in tune */
+  RPN_COARSE = 2,     /**< 1/128 semitone, of which whole semitones count; 8192 is in tune */
+  RPN_ZONE = 6,       /**< Number of a zone's members, see core/play/zones.h */
+  RPN_NONE = 0x3FFF
 };
 
 enum {
-  REGISTERED_CENTRE = 8192,         /**< Of both tunings */
-  REGISTERED_MOST_BEND_CENTS = 9600 /**< Widest range of a wheel */
+  RPN_CENTRE = 8192,         /**< Of both tunings */
+  RPN_MOST_BEND_CENTS = 9600 /**< Widest range of a wheel */
 };
 
 /** Whether `controller` chooses a parameter, registered or not. */
-bool registered_is_choice(uint32_t controller);
+bool rpn_is_choice(uint32_t controller);
 
 /** Whether `controller` enters data, or steps it. */
-bool registered_is_entry(uint32_t controller);
+bool rpn_is_entry(uint32_t controller);
 
 /**
    The parameter that is chosen after `controller`.
@@ -39,7 +39,7 @@ bool registered_is_entry(uint32_t controller);
    @param controller  Half of a number (101, 100), or of one that is not registered (99, 98): then
    none is; others change nothing
 */
-uint32_t registered_choose(uint32_t chosen, uint32_t controller, uint32_t value);
+uint32_t rpn_choose(uint32_t chosen, uint32_t controller, uint32_t value);
 
 /**
    The value of `parameter`, one of the first three, after data entry.
@@ -51,6 +51,6 @@ uint32_t registered_choose(uint32_t chosen, uint32_t controller, uint32_t value)
    @param old         Its value before
    @param controller  6, 38, 96 or 97; others change nothing
 */
-uint32_t registered_enter(uint32_t parameter, uint32_t old, uint32_t controller, uint32_t value);
+uint32_t rpn_enter(uint32_t parameter, uint32_t old, uint32_t controller, uint32_t value);
 
 #endif

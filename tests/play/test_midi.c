@@ -1,5 +1,5 @@
 /* A message is what its bytes say, or nothing. */
-#include "plugin/midi.h"
+#include "core/play/midi.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
