@@ -1,6 +1,7 @@
 #include "plugin/instrument.h"
 
 #include "core/base/limiter.h"
+#include "core/play/channels.h"
 #include "plugin/denormals.h"
 #include "plugin/events.h"
 #include "plugin/outputs.h"
@@ -35,7 +36,8 @@ typedef struct {
 
   /* State */
   void* player;
-  Tuner* tuner; /* NULL: it has none */
+  Channels channels; /* What MIDI has said to it */
+  Tuner* tuner;      /* NULL: it has none */
   Controls controls;
   bool is_fresh; /* Whether nothing has been played since activation: there is nothing to glide
                     from */
@@ -64,7 +66,7 @@ static void set_controls(Instrument* self, const Controls* controls, uint32_t n_
   self->kind->set(self->player, controls, n);
   const bool is_muted = controls->value[PORT_ENABLED] < 0.5f;
   if (is_muted && !self->is_muted) {
-    self->kind->silence(self->player);
+    channels_silence(&self->channels);
   }
   self->is_muted = is_muted;
   limiter_turn(&self->limiter, controls->value[self->kind->limiter] >= 0.5f, n);
@@ -109,7 +111,7 @@ static void write_report(Instrument* self) {
 
 static void play_midi(Instrument* self, const Event* event) {
   self->is_fresh = false;
-  self->kind->play_midi(self->player, event->body, event->size, self->is_muted);
+  channels_play(&self->channels, event->body, event->size, self->is_muted);
 }
 
 static void play_own(Instrument* self, const Event* event) {
@@ -209,6 +211,8 @@ instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* co
     free_instrument(self);
     return NULL;
   }
+  self->channels.to = kind->perform(self->player);
+  channels_reset(&self->channels);
   self->n_shortest = (uint32_t)(SHORTEST_GLIDE_S * rate_hz) + 1;
   return self;
 }
@@ -223,6 +227,7 @@ void instrument_connect_port(LV2_Handle handle, uint32_t index, void* data) {
 void instrument_activate(LV2_Handle handle) {
   Instrument* const self = handle;
   self->kind->reset(self->player);
+  channels_reset(&self->channels);
   limiter_init(&self->limiter, self->rate_hz);
   self->is_fresh = true;
 }

@@ -12,6 +12,7 @@
 #ifndef HOOKE_PLUGIN_INSTRUMENT_H
 #define HOOKE_PLUGIN_INSTRUMENT_H
 
+#include "core/play/performance.h"
 #include "plugin/ports.h"
 #include "plugin/tuner_urids.h"
 
@@ -41,7 +42,7 @@ typedef struct {
   void* (*new)(double rate_hz);
   void (*free)(void* player);
 
-  /** Bring it to rest, with nothing held, bent or touched. */
+  /** Bring it to rest, with nothing held, bent or touched, and no gesture of any channel. */
   void (*reset)(void* player);
 
   /** Read the control inputs. */
@@ -50,13 +51,11 @@ typedef struct {
   /** Take new values, and get there in `n_frames`, 0: at once. */
   void (*set)(void* player, const Controls* controls, uint32_t n_frames);
 
-  /** All sound off. */
-  void (*silence)(void* player);
+  /** How MIDI plays it; asked once. */
+  Performance (*perform)(void* player);
 
-  /** Play a MIDI message; what makes a string sound is left out if the instrument is muted. */
-  void (*play_midi)(void* player, const uint8_t* bytes, uint32_t n_bytes, bool is_muted);
-
-  /** Play the body of an atom of type `event_uri`, of any alignment. */
+  /** Play the body of an atom of type `event_uri`, of any alignment; what makes a string sound is
+   * left out if the instrument is muted. */
   void (*play_event)(void* player, const uint8_t* body, uint32_t n_bytes, bool is_muted);
 
   /** Run at most INSTRUMENT_FRAMES frames. */

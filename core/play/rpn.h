@@ -1,5 +1,6 @@
 /**
-   Registered parameters of MIDI: which one is chosen, and the values that data entry gives them.
+   Registered parameters of MIDI (RPN): which one is chosen, and the values that data entry gives
+   it.
 
    Controllers 101 and 100 choose one; 6 and 38 enter the upper and the lower half of its value, and
    96 and 97 step it up and down.  Values are counted in the unit of the lower half.

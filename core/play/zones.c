@@ -22,22 +22,24 @@ bool zones_has(const Zones* zones, uint32_t leader, uint32_t channel) {
                                : zones->n_upper > 0 && channel + zones->n_upper >= ZONES_UPPER;
 }
 
-uint32_t zones_hand(const Zones* zones, uint32_t channel) {
-  const bool is_in_zone =
-      zones_has(zones, ZONES_LOWER, channel) || zones_has(zones, ZONES_UPPER, channel);
-  const uint32_t first_outside = zones->n_lower > 0 ? zones->n_lower + 1 : 0;
-  return is_in_zone ? channel : first_outside;
-}
-
-uint32_t zones_leader(const Zones* zones, uint32_t hand) {
-  if (zones_has(zones, ZONES_LOWER, hand)) {
+uint32_t zones_leader(const Zones* zones, uint32_t channel) {
+  if (zones_has(zones, ZONES_LOWER, channel)) {
     return ZONES_LOWER;
   }
-  return zones_has(zones, ZONES_UPPER, hand) ? ZONES_UPPER : hand;
+  return zones_has(zones, ZONES_UPPER, channel) ? ZONES_UPPER : channel;
+}
+
+uint32_t zones_seat(const Zones* zones, uint32_t channel) {
+  if (zones_has(zones, ZONES_LOWER, channel)) {
+    return channel == ZONES_LOWER ? ZONES_CHANNELS : channel - ZONES_LOWER - 1;
+  }
+  if (zones_has(zones, ZONES_UPPER, channel)) {
+    return channel == ZONES_UPPER ? ZONES_CHANNELS : ZONES_UPPER - channel - 1;
+  }
+  return channel;
 }
 
 bool zones_agree(const Zones* a, const Zones* b, uint32_t channel) {
-  return zones_hand(a, channel) == zones_hand(b, channel) &&
-         zones_has(a, ZONES_LOWER, channel) == zones_has(b, ZONES_LOWER, channel) &&
+  return zones_has(a, ZONES_LOWER, channel) == zones_has(b, ZONES_LOWER, channel) &&
          zones_has(a, ZONES_UPPER, channel) == zones_has(b, ZONES_UPPER, channel);
 }

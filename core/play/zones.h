@@ -1,10 +1,8 @@
 /**
-   Which of the 16 MIDI channels play for themselves: the zones of MIDI Polyphonic Expression.
+   Which MIDI channels follow another: the zones of MIDI Polyphonic Expression.
 
    The lower zone is led by channel 0 (as counted here), and its members are those above it; the
-   upper one is led by channel 15, and its members are those below.  Each channel of a zone is a
-   hand.  The channels in no zone are one hand together, which has the number of the first of them;
-   so without zones all channels are hand 0.
+   upper one is led by channel 15, and its members are those below.
 
    Thread: any; real-time safe.
 */
@@ -39,12 +37,12 @@ void zones_set(Zones* zones, uint32_t leader, uint32_t n_members);
 /** Whether `channel` is in the zone of `leader`, or leads it. */
 bool zones_has(const Zones* zones, uint32_t leader, uint32_t channel);
 
-/** The hand that `channel` is, or is part of. */
-uint32_t zones_hand(const Zones* zones, uint32_t channel);
+/** Whom `channel` follows: its zone's leader, or itself if it leads or is in no zone. */
+uint32_t zones_leader(const Zones* zones, uint32_t channel);
 
-/** The hand whose gestures `hand` follows beside its own: its zone's leader, or itself if it leads
- * or is in no zone. */
-uint32_t zones_leader(const Zones* zones, uint32_t hand);
+/** A member's place among those of its zone, counted from its leader, 0 to 14; ZONES_CHANNELS for a
+ * leader, and for one in no zone its own number. */
+uint32_t zones_seat(const Zones* zones, uint32_t channel);
 
 /** Whether `channel` is in the same place in both. */
 bool zones_agree(const Zones* a, const Zones* b, uint32_t channel);

@@ -1,20 +1,20 @@
 /* Registered parameters: which one data entry is for, and what comes of it. */
-#include "tests/support/strings_player.h"
+#include "tests/support/player.h"
 
 static void the_wheels_range_is_semitones_and_cents(void** state) {
   (void)state;
   Player player = player_new();
   wheel(&player, 1, -8192);
   set_parameter(&player, 1, 0, 7);
-  assert_last(&player, FAKE_BEND, 1, -7.0);
+  assert_last(&player, GESTURE_BEND, 1, -7.0);
   control(&player, 1, CC_DATA_LOWER, 50);
-  assert_last(&player, FAKE_BEND, 1, -7.5);
+  assert_last(&player, GESTURE_BEND, 1, -7.5);
   control(&player, 1, CC_DATA_LOWER, 127);
-  assert_last(&player, FAKE_BEND, 1, -7.99);
+  assert_last(&player, GESTURE_BEND, 1, -7.99);
   control(&player, 1, CC_DATA, 12); /* Brings the cents to nought. */
-  assert_last(&player, FAKE_BEND, 1, -12.0);
+  assert_last(&player, GESTURE_BEND, 1, -12.0);
   control(&player, 1, CC_DATA, 0);
-  assert_last(&player, FAKE_BEND, 1, 0.0);
+  assert_last(&player, GESTURE_BEND, 1, 0.0);
   player_free(&player);
 }
 
@@ -23,13 +23,13 @@ static void the_wheels_range_is_96_semitones_at_most(void** state) {
   Player player = player_new();
   wheel(&player, 1, -8192);
   set_parameter(&player, 1, 0, 96);
-  assert_last(&player, FAKE_BEND, 1, -96.0);
+  assert_last(&player, GESTURE_BEND, 1, -96.0);
   control(&player, 1, CC_DATA_LOWER, 1);
-  assert_last(&player, FAKE_BEND, 1, -96.0);
+  assert_last(&player, GESTURE_BEND, 1, -96.0);
   control(&player, 1, CC_DATA, 127);
-  assert_last(&player, FAKE_BEND, 1, -96.0);
+  assert_last(&player, GESTURE_BEND, 1, -96.0);
   control(&player, 1, CC_INCREMENT, 0);
-  assert_last(&player, FAKE_BEND, 1, -96.0);
+  assert_last(&player, GESTURE_BEND, 1, -96.0);
   player_free(&player);
 }
 
@@ -37,14 +37,14 @@ static void fine_tuning_has_fourteen_bits_of_a_semitone(void** state) {
   (void)state;
   Player player = player_new();
   set_parameter(&player, 1, 1, 0);
-  assert_last(&player, FAKE_BEND, 1, -1.0);
+  assert_last(&player, GESTURE_BEND, 1, -1.0);
   control(&player, 1, CC_DATA, 64);
-  assert_last(&player, FAKE_BEND, 1, 0.0);
+  assert_last(&player, GESTURE_BEND, 1, 0.0);
   control(&player, 1, CC_DATA_LOWER, 1);
-  assert_last(&player, FAKE_BEND, 1, 1.0 / 8192.0);
+  assert_last(&player, GESTURE_BEND, 1, 1.0 / 8192.0);
   control(&player, 1, CC_DATA, 127);
   control(&player, 1, CC_DATA_LOWER, 127);
-  assert_last(&player, FAKE_BEND, 1, 8191.0 / 8192.0);
+  assert_last(&player, GESTURE_BEND, 1, 8191.0 / 8192.0);
   player_free(&player);
 }
 
@@ -52,11 +52,11 @@ static void coarse_tuning_is_in_semitones(void** state) {
   (void)state;
   Player player = player_new();
   set_parameter(&player, 1, 2, 52);
-  assert_last(&player, FAKE_BEND, 1, -12.0);
+  assert_last(&player, GESTURE_BEND, 1, -12.0);
   control(&player, 1, CC_DATA_LOWER, 127); /* Has no lower half. */
-  assert_last(&player, FAKE_BEND, 1, -12.0);
+  assert_last(&player, GESTURE_BEND, 1, -12.0);
   control(&player, 1, CC_DATA, 127);
-  assert_last(&player, FAKE_BEND, 1, 63.0);
+  assert_last(&player, GESTURE_BEND, 1, 63.0);
   player_free(&player);
 }
 
@@ -67,7 +67,7 @@ static void tunings_and_the_wheel_add_up(void** state) {
   set_parameter(&player, 1, 1, 96);
   set_parameter(&player, 1, 2, 67);
   wheel(&player, 1, -2048);
-  assert_last(&player, FAKE_BEND, 1, 3.0 + 0.5 - 3.0);
+  assert_last(&player, GESTURE_BEND, 1, 3.0 + 0.5 - 3.0);
   player_free(&player);
 }
 
@@ -77,22 +77,22 @@ static void steps_are_a_cent_a_semitone_or_the_least(void** state) {
   wheel(&player, 1, -8192);
   set_parameter(&player, 1, 0, 5);
   control(&player, 1, CC_DECREMENT, 0);
-  assert_last(&player, FAKE_BEND, 1, -4.99);
+  assert_last(&player, GESTURE_BEND, 1, -4.99);
   control(&player, 1, CC_INCREMENT, 127);
   control(&player, 1, CC_INCREMENT, 3);
-  assert_last(&player, FAKE_BEND, 1, -5.01);
+  assert_last(&player, GESTURE_BEND, 1, -5.01);
   control(&player, 1, CC_DATA, 0);
   control(&player, 1, CC_DECREMENT, 0);
-  assert_last(&player, FAKE_BEND, 1, 0.0);
+  assert_last(&player, GESTURE_BEND, 1, 0.0);
   choose(&player, 1, 1);
   control(&player, 1, CC_INCREMENT, 0);
-  assert_last(&player, FAKE_BEND, 1, 1.0 / 8192.0);
+  assert_last(&player, GESTURE_BEND, 1, 1.0 / 8192.0);
   choose(&player, 1, 2);
   control(&player, 1, CC_DECREMENT, 0);
-  assert_last(&player, FAKE_BEND, 1, -1.0 + 1.0 / 8192.0);
+  assert_last(&player, GESTURE_BEND, 1, -1.0 + 1.0 / 8192.0);
   control(&player, 1, CC_INCREMENT, 0);
   control(&player, 1, CC_INCREMENT, 0);
-  assert_last(&player, FAKE_BEND, 1, 1.0 + 1.0 / 8192.0);
+  assert_last(&player, GESTURE_BEND, 1, 1.0 + 1.0 / 8192.0);
   player_free(&player);
 }
 
@@ -131,21 +131,21 @@ static void halves_of_a_number_come_in_any_order(void** state) {
   assert_nothing(&player);
   control(&player, 1, CC_RPN_UPPER, 0);
   control(&player, 1, CC_DATA, 65);
-  assert_last(&player, FAKE_BEND, 1, 1.0);
+  assert_last(&player, GESTURE_BEND, 1, 1.0);
   player_free(&player);
 }
 
-/* Two tracks that set up two channels at once must not get in each other's way; what they set is
- * the one hand's. */
+/* Two tracks that set up two channels at once must not get in each other's way. */
 static void each_channel_chooses_for_itself(void** state) {
   (void)state;
   Player player = player_new();
   choose(&player, 1, 1);
   choose(&player, 2, 2);
   control(&player, 1, CC_DATA, 96);
-  assert_last(&player, FAKE_BEND, 1, 0.5);
+  assert_last(&player, GESTURE_BEND, 1, 0.5);
   control(&player, 2, CC_DATA, 68);
-  assert_last(&player, FAKE_BEND, 1, 4.5);
+  assert_last(&player, GESTURE_BEND, 2, 4.0);
+  assert_last(&player, GESTURE_BEND, 1, 0.5);
   player_free(&player);
 }
 

@@ -1,26 +1,25 @@
-/* How hands start afresh, and how a member lets go of what it played. */
-#include "tests/support/strings_player.h"
+/* How channels start afresh, and how a member lets go of what it played. */
+#include "tests/support/player.h"
 
-/* The hands, as bits, that did something. */
-static uint32_t hands_that(const Player* player, FakeVerb verb) {
-  uint32_t hands = 0;
+/* The channels, as bits, that did something. */
+static uint32_t channels_that(const Player* player, uint32_t verb) {
+  uint32_t channels = 0;
   for (uint32_t channel = 1; channel <= 16; ++channel) {
-    hands |= count(player, verb, channel) ? 1u << (channel - 1) : 0;
+    channels |= count(player, verb, channel) ? 1u << (channel - 1) : 0;
   }
-  return hands;
+  return channels;
 }
 
-/* Channel 1's hand was all channels', channels 1 to 6 have one each now, and 7 is those outside. */
 static void a_zone_that_is_set_up_puts_its_keys_up(void** state) {
   (void)state;
   Player player = player_new();
   on(&player, 1, 60);
   player_forget(&player);
   zone(&player, 1, 5);
-  assert_int_equal(hands_that(&player, FAKE_ALL_NOTES_OFF), 0x7F);
+  assert_int_equal(channels_that(&player, RECORD_ALL_NOTES_OFF), 0x3F);
   player_forget(&player);
   zone(&player, 1, 5); /* Again the same */
-  assert_int_equal(hands_that(&player, FAKE_ALL_NOTES_OFF), 0x3F);
+  assert_int_equal(channels_that(&player, RECORD_ALL_NOTES_OFF), 0x3F);
   player_free(&player);
 }
 
@@ -31,14 +30,14 @@ static void the_other_zone_plays_on(void** state) {
   wheel(&player, 2, -8192);
   control(&player, 1, CC_SUSTAIN, 127);
   player_forget(&player);
-  zone(&player, 16, 4); /* Channels 12 to 16, which 7's hand loses. */
-  assert_int_equal(hands_that(&player, FAKE_ALL_NOTES_OFF), 0xF840);
-  assert_int_equal(hands_that(&player, FAKE_BEND), 0xF840);
+  zone(&player, 16, 4); /* Channels 12 to 16 */
+  assert_int_equal(channels_that(&player, RECORD_ALL_NOTES_OFF), 0xF800);
+  assert_int_equal(channels_that(&player, GESTURE_BEND), 0xF800);
   player_forget(&player);
   zone(&player, 16, 11); /* Leaves channels 1 to 4 to the lower zone. */
-  assert_int_equal(hands_that(&player, FAKE_ALL_NOTES_OFF), 0xFFF0);
+  assert_int_equal(channels_that(&player, RECORD_ALL_NOTES_OFF), 0xFFF0);
   wheel(&player, 1, -8192);
-  assert_last(&player, FAKE_BEND, 2, -50.0);
+  assert_last(&player, GESTURE_BEND, 2, -50.0);
   player_free(&player);
 }
 
@@ -49,15 +48,15 @@ static void a_zone_whose_leader_is_taken_is_gone(void** state) {
   wheel(&player, 1, -8192);
   player_forget(&player);
   zone(&player, 16, 14);
-  assert_int_equal(hands_that(&player, FAKE_ALL_NOTES_OFF), 0xFFFF);
-  assert_last(&player, FAKE_BEND, 1, 0.0);
+  assert_int_equal(channels_that(&player, RECORD_ALL_NOTES_OFF), 0xFFFF);
+  assert_last(&player, GESTURE_BEND, 1, 0.0);
   zone(&player, 16, 0);
   wheel(&player, 16, -8192);
-  assert_call(&player, FAKE_BEND, 1, 0, -2.0);
+  assert_call(&player, GESTURE_BEND, 16, 0, -2.0);
   player_free(&player);
 }
 
-/* What was said before, to hands of any kind, is not heard in a zone, and neither is it after. */
+/* What was said before is not heard in a zone, and neither is it after; but volumes stay. */
 static void all_starts_afresh_with_a_zone_and_without(void** state) {
   (void)state;
   Player player = player_new();
@@ -74,27 +73,31 @@ static void all_starts_afresh_with_a_zone_and_without(void** state) {
       control(&player, channel, CC_VIBRATO, 127);
       control(&player, channel, CC_BREATH, 0);
       control(&player, channel, CC_BRIGHTNESS, 127);
+      control(&player, channel, CC_EXPRESSION, 64);
     }
+    control(&player, 1, CC_VOLUME, 64);
     player_forget(&player);
     zone(&player, 1, n);
-    for (unsigned channel = 1; channel <= 7; ++channel) {
-      assert_last(&player, FAKE_BEND, channel, 0.0);
-      assert_last(&player, FAKE_PRESS, channel, 0.0);
-      assert_last(&player, FAKE_PEDAL, channel, 0.0);
-      assert_last(&player, FAKE_SOSTENUTO, channel, 0.0);
-      assert_last(&player, FAKE_SOFTEN, channel, 0.0);
-      assert_last(&player, FAKE_VIBRATO, channel, 0.0);
-      assert_last(&player, FAKE_BREATHE, channel, 1.0);
-      assert_last(&player, FAKE_BRIGHTEN, channel, 0.0);
+    for (unsigned channel = 1; channel <= 6; ++channel) {
+      assert_last(&player, GESTURE_BEND, channel, 0.0);
+      assert_last(&player, GESTURE_PRESSURE, channel, 0.0);
+      assert_last(&player, GESTURE_DAMPER, channel, 0.0);
+      assert_last(&player, GESTURE_SOSTENUTO, channel, 0.0);
+      assert_last(&player, GESTURE_SOFTNESS, channel, 0.0);
+      assert_last(&player, GESTURE_VIBRATO, channel, 0.0);
+      assert_last(&player, GESTURE_BREATH, channel, 1.0);
+      assert_last(&player, GESTURE_BRIGHTNESS, channel, 0.0);
+      const bool is_loud = n == 0 && channel > 1; /* Follows channel 1 no more */
+      assert_last(&player, GESTURE_GAIN, channel, is_loud ? 1.0 : pow(64.0 / 127.0, 2.0));
     }
     wheel(&player, 5, -8192);
-    assert_last(&player, FAKE_BEND, n ? 5 : 1, n ? -48.0 : -2.0);
+    assert_last(&player, GESTURE_BEND, 5, n ? -48.0 : -2.0);
   }
   player_free(&player);
 }
 
-/* What rings on is not to glide when its hand starts afresh. */
-static void what_rings_is_let_go_before_its_hand_starts_afresh(void** state) {
+/* What rings on is not to glide when its channel starts afresh. */
+static void what_rings_is_let_go_before_its_channel_starts_afresh(void** state) {
   (void)state;
   Player player = player_new();
   wheel(&player, 1, -8192);
@@ -104,11 +107,11 @@ static void what_rings_is_let_go_before_its_hand_starts_afresh(void** state) {
   uint32_t up = 0;
   uint32_t gone = 0;
   uint32_t bent = 0;
-  for (uint32_t i = 0; i < player.fake->n_calls; ++i) {
-    const FakeCall* const call = &player.fake->calls[i];
-    up = call->hand == 0 && call->verb == FAKE_ALL_NOTES_OFF ? i + 1 : up;
-    gone = call->hand == 0 && call->verb == FAKE_LET_GO ? i + 1 : gone;
-    bent = call->hand == 0 && call->verb == FAKE_BEND ? i + 1 : bent;
+  for (uint32_t i = 0; i < player.recorder->n_calls; ++i) {
+    const RecordedCall* const call = &player.recorder->calls[i];
+    up = call->channel == 0 && call->verb == RECORD_ALL_NOTES_OFF ? i + 1 : up;
+    gone = call->channel == 0 && call->verb == RECORD_LET_GO ? i + 1 : gone;
+    bent = call->channel == 0 && call->verb == GESTURE_BEND ? i + 1 : bent;
   }
   assert_true(0 < up && up < gone && gone < bent);
   player_free(&player);
@@ -122,8 +125,8 @@ static uint32_t let_go_by(unsigned kind, unsigned channel, unsigned a, unsigned 
   off(&player, 2, 60);
   player_forget(&player);
   send(&player, kind, channel, a, b);
-  const uint32_t n = count(&player, FAKE_LET_GO, 2);
-  assert_true(n == 0 || player.fake->calls[0].verb == FAKE_LET_GO);
+  const uint32_t n = count(&player, RECORD_LET_GO, 2);
+  assert_true(n == 0 || player.recorder->calls[0].verb == RECORD_LET_GO);
   player_free(&player);
   return n;
 }
@@ -163,16 +166,16 @@ static void a_member_holds_on_while_a_key_is_down(void** state) {
   on(&player, 2, 102);
   off(&player, 2, 102); /* 32 from one that stays */
   press(&player, 2, 100);
-  assert_int_equal(count(&player, FAKE_LET_GO, 2), 0);
+  assert_int_equal(count(&player, RECORD_LET_GO, 2), 0);
   off(&player, 2, 70);
-  assert_int_equal(count(&player, FAKE_LET_GO, 2), 0);
+  assert_int_equal(count(&player, RECORD_LET_GO, 2), 0);
   wheel(&player, 2, 0);
   wheel(&player, 2, 5); /* Nothing is left. */
   on(&player, 2, 60);
-  assert_int_equal(count(&player, FAKE_LET_GO, 2), 1);
+  assert_int_equal(count(&player, RECORD_LET_GO, 2), 1);
   control(&player, 1, CC_NOTES_OFF, 0);
   wheel(&player, 2, 5);
-  assert_int_equal(count(&player, FAKE_LET_GO, 2), 2);
+  assert_int_equal(count(&player, RECORD_LET_GO, 2), 2);
   player_free(&player);
 }
 
@@ -185,11 +188,11 @@ static void members_let_go_when_their_range_changes(void** state) {
   on(&player, 3, 60);
   player_forget(&player);
   set_parameter(&player, 4, 0, 24);
-  assert_int_equal(hands_that(&player, FAKE_LET_GO), 2);
+  assert_int_equal(channels_that(&player, RECORD_LET_GO), 2);
   player_free(&player);
 }
 
-/* A leader's hand plays chords, and so do channels outside; their wheel bends what rings. */
+/* A leader plays chords, and so do channels outside; their wheel bends what rings. */
 static void leaders_and_channels_outside_never_let_go(void** state) {
   (void)state;
   Player player = player_new();
@@ -202,7 +205,7 @@ static void leaders_and_channels_outside_never_let_go(void** state) {
       wheel(&player, channel, 500);
       on(&player, channel, 61);
     }
-    assert_int_equal(hands_that(&player, FAKE_LET_GO), 0);
+    assert_int_equal(channels_that(&player, RECORD_LET_GO), 0);
   }
   player_free(&player);
 }
@@ -213,13 +216,13 @@ static void silence_forgets_keys_that_are_down(void** state) {
   zone(&player, 1, 5);
   on(&player, 2, 60);
   control(&player, 1, CC_SOUND_OFF, 0);
+  assert_int_equal(count(&player, RECORD_ALL_SOUND_OFF, 2), 1);
   wheel(&player, 2, 5);
-  assert_int_equal(count(&player, FAKE_ALL_SOUND_OFF, 1), 1);
   player_forget(&player);
   on(&player, 2, 62);
   off(&player, 2, 62);
   wheel(&player, 2, 5);
-  assert_int_equal(count(&player, FAKE_LET_GO, 2), 1);
+  assert_int_equal(count(&player, RECORD_LET_GO, 2), 1);
   player_free(&player);
 }
 
@@ -237,36 +240,40 @@ static void reset_controllers_is_the_whole_zones(void** state) {
   choose(&player, 15, 0);
   player_forget(&player);
   control(&player, 1, CC_RESET, 0);
-  assert_last(&player, FAKE_BEND, 2, 0.0);
-  assert_last(&player, FAKE_PRESS, 4, 0.0);
+  assert_last(&player, GESTURE_BEND, 2, 0.0);
+  assert_last(&player, GESTURE_PRESSURE, 4, 0.0);
   for (unsigned channel = 1; channel <= 4; ++channel) {
-    assert_last(&player, FAKE_PEDAL, channel, 0.0);
+    assert_last(&player, GESTURE_DAMPER, channel, 0.0);
   }
-  assert_int_equal(count(&player, FAKE_BEND, 15) + count(&player, FAKE_PEDAL, 16), 0);
+  assert_int_equal(count(&player, GESTURE_BEND, 15) + count(&player, GESTURE_DAMPER, 16), 0);
   player_forget(&player);
   control(&player, 4, CC_DATA, 5);
   assert_nothing(&player);
   control(&player, 15, CC_DATA, 5);
-  assert_last(&player, FAKE_BEND, 15, -5.0);
+  assert_last(&player, GESTURE_BEND, 15, -5.0);
   player_free(&player);
 }
 
-static void reset_controllers_is_of_all_channels_outside(void** state) {
+static void reset_controllers_is_of_one_channel_outside(void** state) {
   (void)state;
   Player player = player_new();
   zone(&player, 1, 3);
   choose(&player, 9, 0);
+  choose(&player, 12, 0);
   choose(&player, 2, 0);
   control(&player, 12, CC_RESET, 0);
   player_forget(&player);
-  control(&player, 9, CC_DATA, 7);
+  control(&player, 12, CC_DATA, 7);
   assert_nothing(&player);
+  control(&player, 9, CC_DATA, 7);
+  assert_int_equal(channels_that(&player, GESTURE_BEND), 0x100);
+  player_forget(&player);
   control(&player, 2, CC_DATA, 7);
-  assert_int_equal(hands_that(&player, FAKE_BEND), 0xE);
+  assert_int_equal(channels_that(&player, GESTURE_BEND), 0xE);
   player_free(&player);
 }
 
-/* The first channel is itself in a zone that it does not lead, and as all channels. */
+/* The first channel is itself in a zone that it does not lead, and in none. */
 static void a_channel_is_in_one_place_at_a_time(void** state) {
   static const Zones none = {0};
   Zones zones = {0};
@@ -284,14 +291,14 @@ int main(void) {
       cmocka_unit_test(the_other_zone_plays_on),
       cmocka_unit_test(a_zone_whose_leader_is_taken_is_gone),
       cmocka_unit_test(all_starts_afresh_with_a_zone_and_without),
-      cmocka_unit_test(what_rings_is_let_go_before_its_hand_starts_afresh),
+      cmocka_unit_test(what_rings_is_let_go_before_its_channel_starts_afresh),
       cmocka_unit_test(a_member_that_is_told_something_new_lets_go_first),
       cmocka_unit_test(what_a_member_let_ring_follows_its_leader),
       cmocka_unit_test(a_member_holds_on_while_a_key_is_down),
       cmocka_unit_test(members_let_go_when_their_range_changes),
       cmocka_unit_test(leaders_and_channels_outside_never_let_go),
       cmocka_unit_test(reset_controllers_is_the_whole_zones),
-      cmocka_unit_test(reset_controllers_is_of_all_channels_outside),
+      cmocka_unit_test(reset_controllers_is_of_one_channel_outside),
       cmocka_unit_test(a_channel_is_in_one_place_at_a_time),
       cmocka_unit_test(silence_forgets_keys_that_are_down),
   };

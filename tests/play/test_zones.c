@@ -1,21 +1,5 @@
-/* Zones: which channels are hands of their own, and who hears what. */
-#include "tests/support/strings_player.h"
-
-/* Whose hand a channel's keys are, as channels are counted. */
-static uint32_t hand_of(Player* player, unsigned channel) {
-  on(player, channel, 60);
-  const uint32_t hand = player->fake->calls[player->fake->n_calls - 1].hand + 1;
-  off(player, channel, 60);
-  return hand;
-}
-
-/* Channels from..to are hands of their own; all others are the hand of `outside`. */
-static void assert_hands(Player* player, unsigned from, unsigned to, uint32_t outside) {
-  for (unsigned channel = 1; channel <= 16; ++channel) {
-    const bool is_own = channel >= from && channel <= to;
-    assert_int_equal(hand_of(player, channel), is_own ? channel : outside);
-  }
-}
+/* Zones: which channels follow which, and who hears what. */
+#include "tests/support/player.h"
 
 /* A member hears its leader's wheel; nobody else does. */
 static void assert_follows(Player* player, unsigned leader, unsigned from, unsigned to) {
@@ -23,7 +7,7 @@ static void assert_follows(Player* player, unsigned leader, unsigned from, unsig
   wheel(player, leader, 100);
   for (unsigned channel = 1; channel <= 16; ++channel) {
     const bool hears = channel == leader || (channel >= from && channel <= to);
-    assert_int_equal(count(player, FAKE_BEND, channel), hears);
+    assert_int_equal(count(player, GESTURE_BEND, channel), hears);
   }
   wheel(player, leader, 0);
 }
@@ -33,18 +17,13 @@ static void every_size_of_zone_is_its_leader_and_its_members(void** state) {
   Player player = player_new();
   for (unsigned n = 1; n <= 15; ++n) {
     zone(&player, 1, n);
-    player_forget(&player);
-    assert_hands(&player, 1, n + 1, n + 2);
     assert_follows(&player, 1, 2, n + 1);
     zone(&player, 1, 0);
     zone(&player, 16, n);
-    player_forget(&player);
-    assert_hands(&player, 16 - n, 16, 1);
     assert_follows(&player, 16, 16 - n, 15);
     zone(&player, 16, 0);
-    player_forget(&player);
-    assert_hands(&player, 1, 0, 1);
-    player_forget(&player);
+    assert_follows(&player, 1, 1, 1);
+    assert_follows(&player, 16, 16, 16);
   }
   player_free(&player);
 }
@@ -53,7 +32,7 @@ static void a_later_zone_takes_channels_from_the_other(void** state) {
   (void)state;
   Player player = player_new();
   for (unsigned upper = 1; upper <= 15; ++upper) {
-    strings_midi_reset(&player.midi);
+    channels_reset(&player.channels);
     zone(&player, 1, 7);
     zone(&player, 16, upper);
     const unsigned left = upper >= 14 ? 0 : 14 - upper < 7 ? 14 - upper : 7;
@@ -61,7 +40,7 @@ static void a_later_zone_takes_channels_from_the_other(void** state) {
     if (upper < 15) {
       assert_follows(&player, 1, 2, 1 + left);
     }
-    strings_midi_reset(&player.midi);
+    channels_reset(&player.channels);
     zone(&player, 16, 7);
     zone(&player, 1, upper);
     assert_follows(&player, 1, 2, 1 + upper);
@@ -94,13 +73,13 @@ static void a_members_wheel_bends_by_48_and_its_leaders_by_two_more(void** state
   Player player = player_new();
   zone(&player, 1, 15);
   wheel(&player, 3, 4096);
-  assert_last(&player, FAKE_BEND, 3, 24.0);
+  assert_last(&player, GESTURE_BEND, 3, 24.0);
   wheel(&player, 1, -8192);
-  assert_last(&player, FAKE_BEND, 3, 22.0);
-  assert_last(&player, FAKE_BEND, 4, -2.0);
-  assert_last(&player, FAKE_BEND, 1, -2.0);
+  assert_last(&player, GESTURE_BEND, 3, 22.0);
+  assert_last(&player, GESTURE_BEND, 4, -2.0);
+  assert_last(&player, GESTURE_BEND, 1, -2.0);
   wheel(&player, 4, -8192);
-  assert_last(&player, FAKE_BEND, 4, -50.0);
+  assert_last(&player, GESTURE_BEND, 4, -50.0);
   player_free(&player);
 }
 
@@ -113,14 +92,14 @@ static void a_members_range_is_every_members(void** state) {
   control(&player, 3, CC_DATA_LOWER, 50);
   for (unsigned channel = 2; channel <= 5; ++channel) {
     wheel(&player, channel, -8192);
-    assert_last(&player, FAKE_BEND, channel, -24.5);
+    assert_last(&player, GESTURE_BEND, channel, -24.5);
   }
   wheel(&player, 15, -8192);
-  assert_last(&player, FAKE_BEND, 15, -48.0);
+  assert_last(&player, GESTURE_BEND, 15, -48.0);
   wheel(&player, 1, -8192);
-  assert_last(&player, FAKE_BEND, 1, -2.0);
+  assert_last(&player, GESTURE_BEND, 1, -2.0);
   wheel(&player, 9, -8192);
-  assert_last(&player, FAKE_BEND, 6, -2.0);
+  assert_last(&player, GESTURE_BEND, 9, -2.0);
   player_free(&player);
 }
 
@@ -130,10 +109,10 @@ static void a_leaders_range_is_its_own(void** state) {
   zone(&player, 1, 4);
   set_parameter(&player, 1, 0, 12);
   wheel(&player, 2, -8192);
-  assert_last(&player, FAKE_BEND, 2, -48.0);
+  assert_last(&player, GESTURE_BEND, 2, -48.0);
   wheel(&player, 1, 4096);
-  assert_last(&player, FAKE_BEND, 2, -42.0);
-  assert_last(&player, FAKE_BEND, 5, 6.0);
+  assert_last(&player, GESTURE_BEND, 2, -42.0);
+  assert_last(&player, GESTURE_BEND, 5, 6.0);
   player_free(&player);
 }
 
@@ -144,7 +123,7 @@ static void tunings_are_the_zones(void** state) {
   set_parameter(&player, 1, 2, 66);
   set_parameter(&player, 1, 1, 32);
   for (unsigned channel = 1; channel <= 5; ++channel) {
-    assert_last(&player, FAKE_BEND, channel, 1.5);
+    assert_last(&player, GESTURE_BEND, channel, 1.5);
   }
   player_forget(&player);
   set_parameter(&player, 2, 2, 70); /* A member has none of its own. */
@@ -158,16 +137,16 @@ static void pressure_is_that_of_whoever_presses_harder(void** state) {
   Player player = player_new();
   zone(&player, 16, 3);
   press(&player, 15, 80);
-  assert_last(&player, FAKE_PRESS, 15, 80.0 / 127.0);
+  assert_last(&player, GESTURE_PRESSURE, 15, 80.0 / 127.0);
   press(&player, 16, 50);
-  assert_last(&player, FAKE_PRESS, 15, 80.0 / 127.0);
-  assert_last(&player, FAKE_PRESS, 14, 50.0 / 127.0);
-  assert_last(&player, FAKE_PRESS, 16, 50.0 / 127.0);
+  assert_last(&player, GESTURE_PRESSURE, 15, 80.0 / 127.0);
+  assert_last(&player, GESTURE_PRESSURE, 14, 50.0 / 127.0);
+  assert_last(&player, GESTURE_PRESSURE, 16, 50.0 / 127.0);
   press(&player, 16, 127);
-  assert_last(&player, FAKE_PRESS, 15, 1.0);
+  assert_last(&player, GESTURE_PRESSURE, 15, 1.0);
   press(&player, 16, 0);
-  assert_last(&player, FAKE_PRESS, 15, 80.0 / 127.0);
-  assert_true(isnan(last(&player, FAKE_PRESS, 12)));
+  assert_last(&player, GESTURE_PRESSURE, 15, 80.0 / 127.0);
+  assert_true(isnan(last(&player, GESTURE_PRESSURE, 12)));
   player_free(&player);
 }
 
@@ -176,32 +155,29 @@ static void brightness_adds_up(void** state) {
   Player player = player_new();
   zone(&player, 1, 3);
   control(&player, 2, CC_BRIGHTNESS, 85);
-  assert_last(&player, FAKE_BRIGHTEN, 2, 1.0 / 3.0);
+  assert_last(&player, GESTURE_BRIGHTNESS, 2, 1.0 / 3.0);
   control(&player, 1, CC_BRIGHTNESS, 43);
-  assert_last(&player, FAKE_BRIGHTEN, 2, 0.0);
-  assert_last(&player, FAKE_BRIGHTEN, 3, -1.0 / 3.0);
-  assert_last(&player, FAKE_BRIGHTEN, 1, -1.0 / 3.0);
+  assert_last(&player, GESTURE_BRIGHTNESS, 2, 0.0);
+  assert_last(&player, GESTURE_BRIGHTNESS, 3, -1.0 / 3.0);
+  assert_last(&player, GESTURE_BRIGHTNESS, 1, -1.0 / 3.0);
   control(&player, 1, CC_BRIGHTNESS, 127);
-  assert_last(&player, FAKE_BRIGHTEN, 2, 1.0);
+  assert_last(&player, GESTURE_BRIGHTNESS, 2, 1.0);
   control(&player, 2, CC_BRIGHTNESS, 0);
-  assert_last(&player, FAKE_BRIGHTEN, 2, 0.0);
+  assert_last(&player, GESTURE_BRIGHTNESS, 2, 0.0);
   control(&player, 1, CC_BRIGHTNESS, 0);
-  assert_last(&player, FAKE_BRIGHTEN, 2, -1.0);
+  assert_last(&player, GESTURE_BRIGHTNESS, 2, -1.0);
   player_free(&player);
 }
 
 static void a_leaders_pedals_vibrato_and_breath_are_the_zones(void** state) {
   static const struct {
     unsigned number;
-    FakeVerb verb;
+    uint32_t verb;
     double value; /* Of 64 */
   } all[] = {
-      {CC_VIBRATO, FAKE_VIBRATO, 32.0 / 127.0},
-      {CC_BREATH, FAKE_BREATHE, 64.0 / 127.0},
-      {CC_SUSTAIN, FAKE_PEDAL, 1.0},
-      {CC_SOSTENUTO, FAKE_SOSTENUTO, 1.0},
-      {CC_SOFT, FAKE_SOFTEN, 64.0 / 127.0},
-      {CC_NOTES_OFF, FAKE_ALL_NOTES_OFF, 0.0},
+      {CC_VIBRATO, GESTURE_VIBRATO, 32.0 / 127.0}, {CC_BREATH, GESTURE_BREATH, 64.0 / 127.0},
+      {CC_SUSTAIN, GESTURE_DAMPER, 1.0},           {CC_SOSTENUTO, GESTURE_SOSTENUTO, 1.0},
+      {CC_SOFT, GESTURE_SOFTNESS, 64.0 / 127.0},   {CC_NOTES_OFF, RECORD_ALL_NOTES_OFF, 0.0},
   };
   (void)state;
   Player player = player_new();
@@ -213,7 +189,7 @@ static void a_leaders_pedals_vibrato_and_breath_are_the_zones(void** state) {
     for (unsigned channel = 1; channel <= 6; ++channel) {
       assert_last(&player, all[i].verb, channel, all[i].value);
     }
-    assert_int_equal(player.fake->n_calls, 6);
+    assert_int_equal(player.recorder->n_calls, 6);
   }
   player_free(&player);
 }
@@ -238,13 +214,51 @@ static void a_member_has_no_word_in_what_is_its_zones(void** state) {
   player_free(&player);
 }
 
-static void volume_and_expression_are_of_all_strings(void** state) {
+static void a_leaders_volume_and_expression_are_the_zones(void** state) {
   (void)state;
   Player player = player_new();
   zone(&player, 1, 5);
   control(&player, 1, CC_VOLUME, 64);
-  control(&player, 9, CC_EXPRESSION, 64);
-  assert_last(&player, FAKE_SWELL, 1, pow(64.0 / 127.0, 4.0));
+  control(&player, 1, CC_EXPRESSION, 64);
+  control(&player, 9, CC_EXPRESSION, 32);
+  for (unsigned channel = 1; channel <= 6; ++channel) {
+    assert_last(&player, GESTURE_GAIN, channel, pow(64.0 / 127.0, 4.0));
+  }
+  assert_last(&player, GESTURE_GAIN, 9, pow(32.0 / 127.0, 2.0));
+  player_free(&player);
+}
+
+static void a_leaders_all_sound_off_is_the_zones(void** state) {
+  (void)state;
+  Player player = player_new();
+  zone(&player, 1, 5);
+  zone(&player, 16, 2);
+  control(&player, 16, CC_SOUND_OFF, 0);
+  for (unsigned channel = 1; channel <= 16; ++channel) {
+    assert_int_equal(count(&player, RECORD_ALL_SOUND_OFF, channel), channel >= 14);
+  }
+  player_free(&player);
+}
+
+/* Counted from the leader; what is in no zone, or leads one, has none among members. */
+static void members_are_seated_in_their_order(void** state) {
+  (void)state;
+  Player player = player_new();
+  zone(&player, 1, 6);
+  zone(&player, 16, 3);
+  for (unsigned seat = 0; seat < 6; ++seat) {
+    assert_last(&player, RECORD_SEAT, 2 + seat, seat);
+  }
+  for (unsigned seat = 0; seat < 3; ++seat) {
+    assert_last(&player, RECORD_SEAT, 15 - seat, seat);
+  }
+  assert_last(&player, RECORD_SEAT, 1, 16.0);
+  assert_last(&player, RECORD_SEAT, 16, 16.0);
+  assert_true(isnan(last(&player, RECORD_SEAT, 9)));
+  zone(&player, 1, 0);
+  for (unsigned channel = 1; channel <= 7; ++channel) {
+    assert_last(&player, RECORD_SEAT, channel, channel - 1.0);
+  }
   player_free(&player);
 }
 
@@ -253,27 +267,27 @@ static void a_leader_presses_keys_of_its_own(void** state) {
   Player player = player_new();
   zone(&player, 16, 5);
   send(&player, 0xA0, 16, 50, 127);
-  assert_call(&player, FAKE_PRESS_KEY, 16, 50, 1.0);
+  assert_call(&player, RECORD_PRESS_KEY, 16, 50, 1.0);
   player_free(&player);
 }
 
-static void channels_outside_play_as_one_and_hear_no_zone(void** state) {
+static void channels_outside_play_alone_and_hear_no_zone(void** state) {
   (void)state;
   Player player = player_new();
   zone(&player, 1, 3);
   zone(&player, 16, 3);
   player_forget(&player);
   wheel(&player, 8, -8192);
-  assert_call(&player, FAKE_BEND, 5, 0, -2.0);
+  assert_call(&player, GESTURE_BEND, 8, 0, -2.0);
   control(&player, 12, CC_SUSTAIN, 127);
-  assert_call(&player, FAKE_PEDAL, 5, 0, 1.0);
+  assert_call(&player, GESTURE_DAMPER, 12, 0, 1.0);
   press(&player, 7, 127);
-  assert_call(&player, FAKE_PRESS, 5, 0, 1.0);
+  assert_call(&player, GESTURE_PRESSURE, 7, 0, 1.0);
   send(&player, 0xA0, 7, 50, 127);
-  assert_call(&player, FAKE_PRESS_KEY, 5, 50, 1.0);
+  assert_call(&player, RECORD_PRESS_KEY, 7, 50, 1.0);
   control(&player, 6, CC_NOTES_OFF, 0);
-  assert_call(&player, FAKE_ALL_NOTES_OFF, 5, 0, 0.0);
-  assert_int_equal(player.fake->n_calls, 5);
+  assert_call(&player, RECORD_ALL_NOTES_OFF, 6, 0, 0.0);
+  assert_int_equal(player.recorder->n_calls, 5);
   player_free(&player);
 }
 
@@ -290,9 +304,11 @@ int main(void) {
       cmocka_unit_test(brightness_adds_up),
       cmocka_unit_test(a_leaders_pedals_vibrato_and_breath_are_the_zones),
       cmocka_unit_test(a_member_has_no_word_in_what_is_its_zones),
-      cmocka_unit_test(volume_and_expression_are_of_all_strings),
+      cmocka_unit_test(a_leaders_volume_and_expression_are_the_zones),
+      cmocka_unit_test(a_leaders_all_sound_off_is_the_zones),
+      cmocka_unit_test(members_are_seated_in_their_order),
       cmocka_unit_test(a_leader_presses_keys_of_its_own),
-      cmocka_unit_test(channels_outside_play_as_one_and_hear_no_zone),
+      cmocka_unit_test(channels_outside_play_alone_and_hear_no_zone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

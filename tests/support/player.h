@@ -1,13 +1,16 @@
-/** Somebody who sends MIDI messages to a harp that writes down what comes of them. */
-#ifndef HOOKE_TESTS_SUPPORT_STRINGS_PLAYER_H
-#define HOOKE_TESTS_SUPPORT_STRINGS_PLAYER_H
+/** Somebody who sends MIDI messages to an instrument that writes down what comes of them. */
+#ifndef HOOKE_TESTS_SUPPORT_PLAYER_H
+#define HOOKE_TESTS_SUPPORT_PLAYER_H
 
-#include "tests/support/harp_fake.h"
+#include "core/play/channels.h"
+#include "tests/support/recorder.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -35,31 +38,31 @@ enum {
 };
 
 typedef struct {
-  HarpFake* fake;
-  StringsMidi midi;
+  Recorder* recorder;
+  Channels channels;
 } Player;
 
 static inline Player player_new(void) {
-  Player player = {.fake = calloc(1, sizeof(HarpFake))};
-  assert_non_null(player.fake);
-  player.midi.hands.harp = &player.fake->harp;
-  strings_midi_reset(&player.midi);
+  Player player = {.recorder = calloc(1, sizeof(Recorder))};
+  assert_non_null(player.recorder);
+  player.channels.to = recorder_performance(player.recorder);
+  channels_reset(&player.channels);
   return player;
 }
 
 static inline void player_free(Player* player) {
-  free(player->fake);
+  free(player->recorder);
 }
 
 /** Forget what was done so far. */
 static inline void player_forget(Player* player) {
-  player->fake->n_calls = 0;
+  player->recorder->n_calls = 0;
 }
 
 /** Channels are counted from 1, as musicians do. */
 static inline void send(Player* player, unsigned kind, unsigned channel, unsigned a, unsigned b) {
   const uint8_t bytes[3] = {(uint8_t)(kind | (channel - 1)), (uint8_t)a, (uint8_t)b};
-  strings_midi_play(&player->midi, bytes, kind == 0xC0 || kind == 0xD0 ? 2 : 3, false);
+  channels_play(&player->channels, bytes, kind == 0xC0 || kind == 0xD0 ? 2 : 3, false);
 }
 
 static inline void on(Player* player, unsigned channel, unsigned key) {
@@ -100,22 +103,22 @@ static inline void zone(Player* player, unsigned leader, unsigned n_members) {
   set_parameter(player, leader, 6, n_members);
 }
 
-/** How often something was done by a channel's hand, as channels are counted. */
-static inline uint32_t count(const Player* player, FakeVerb verb, uint32_t channel) {
+/** How often something was done by a channel. */
+static inline uint32_t count(const Player* player, uint32_t verb, uint32_t channel) {
   uint32_t n = 0;
-  for (uint32_t i = 0; i < player->fake->n_calls; ++i) {
-    const FakeCall* const call = &player->fake->calls[i];
-    n += call->verb == verb && call->hand == channel - 1;
+  for (uint32_t i = 0; i < player->recorder->n_calls; ++i) {
+    const RecordedCall* const call = &player->recorder->calls[i];
+    n += call->verb == verb && call->channel == channel - 1;
   }
   return n;
 }
 
-/** The last value that was given to a channel's hand; NAN if none was. */
-static inline double last(const Player* player, FakeVerb verb, uint32_t channel) {
+/** The last value that was given by a channel; NAN if none was. */
+static inline double last(const Player* player, uint32_t verb, uint32_t channel) {
   double value = (double)NAN;
-  for (uint32_t i = 0; i < player->fake->n_calls; ++i) {
-    const FakeCall* const call = &player->fake->calls[i];
-    value = call->verb == verb && call->hand == channel - 1 ? call->value : value;
+  for (uint32_t i = 0; i < player->recorder->n_calls; ++i) {
+    const RecordedCall* const call = &player->recorder->calls[i];
+    value = call->verb == verb && call->channel == channel - 1 ? call->value : value;
   }
   return value;
 }
@@ -126,7 +129,7 @@ static inline bool is_near(double a, double b) {
 }
 
 static inline void
-assert_last(const Player* player, FakeVerb verb, uint32_t channel, double expected) {
+assert_last(const Player* player, uint32_t verb, uint32_t channel, double expected) {
   const double found = last(player, verb, channel);
   if (!is_near(found, expected)) {
     fail_msg("verb %u of channel %u: %.15g, expected %.15g", verb, channel, found, expected);
@@ -135,16 +138,16 @@ assert_last(const Player* player, FakeVerb verb, uint32_t channel, double expect
 
 /** Nothing was done at all. */
 static inline void assert_nothing(const Player* player) {
-  assert_int_equal(player->fake->n_calls, 0);
+  assert_int_equal(player->recorder->n_calls, 0);
 }
 
-/** The last thing done was this, by the hand of this channel. */
+/** The last thing done was this, by this channel. */
 static inline void
-assert_call(const Player* player, FakeVerb verb, uint32_t channel, uint32_t key, double value) {
-  assert_true(player->fake->n_calls > 0);
-  const FakeCall* const call = &player->fake->calls[player->fake->n_calls - 1];
+assert_call(const Player* player, uint32_t verb, uint32_t channel, uint32_t key, double value) {
+  assert_true(player->recorder->n_calls > 0);
+  const RecordedCall* const call = &player->recorder->calls[player->recorder->n_calls - 1];
   assert_int_equal(call->verb, verb);
-  assert_int_equal(call->hand, channel - 1);
+  assert_int_equal(call->channel, channel - 1);
   assert_int_equal(call->key, key);
   assert_true(is_near(call->value, value));
 }
