@@ -6,6 +6,7 @@
 
 #include <lv2/atom/atom.h>
 #include <lv2/core/lv2.h>
+#include <lv2/midi/midi.h>
 #include <lv2/patch/patch.h>
 #include <lv2/port-groups/port-groups.h>
 #include <lv2/resize-port/resize-port.h>
@@ -193,6 +194,19 @@ static void ports_of_events_say_how_large_they_are(void** state) {
   check_both(check_events);
 }
 
+/* Volume is the channels', which a host that moved a level for it would take away. */
+static void check_bindings(Host* host) {
+  for (uint32_t i = 0; i < host_n_ports(host); ++i) {
+    LilvNode* const binding = panel_get(host, i, LV2_MIDI__binding);
+    assert_null(binding);
+  }
+}
+
+static void no_controller_moves_a_port(void** state) {
+  (void)state;
+  check_both(check_bindings);
+}
+
 /* A file that is read is a path which a host shows, and is told apart by a label. */
 static void check_parameters(Host* host) {
   LilvNode* const key = lilv_new_uri(host_world(host), LV2_PATCH__writable);
@@ -248,6 +262,7 @@ int main(void) {
       cmocka_unit_test(the_main_output_is_left_and_right),
       cmocka_unit_test(symbols_are_names_in_c_each_of_one_port),
       cmocka_unit_test(ports_of_events_say_how_large_they_are),
+      cmocka_unit_test(no_controller_moves_a_port),
       cmocka_unit_test(files_are_paths_with_labels),
       cmocka_unit_test(presets_lie_in_the_bundle),
   };
