@@ -1,12 +1,9 @@
 #include "core/play/channel.h"
 
+#include "core/base/maths.h"
 #include "core/play/rpn.h"
 
 #include <math.h>
-
-static double clamp(double value, double low, double high) {
-  return fmin(fmax(value, low), high);
-}
 
 void channel_reset(Channel* channel, uint32_t range_cents) {
   *channel = (Channel){

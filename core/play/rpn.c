@@ -1,5 +1,6 @@
 #include "core/play/rpn.h"
 
+#include "core/base/maths.h"
 #include "core/play/midi.h"
 
 /* How the value of a parameter is counted. */
@@ -14,10 +15,6 @@ static const Scale scales[] = {
     [RPN_FINE] = {128, 1, 0x3FFF},
     [RPN_COARSE] = {128, 128, 0x3FFF},
 };
-
-static uint32_t least(uint32_t a, uint32_t b) {
-  return a < b ? a : b;
-}
 
 bool rpn_is_choice(uint32_t controller) {
   return controller >= MIDI_NRPN_LOWER && controller <= MIDI_RPN_UPPER;

@@ -1,11 +1,9 @@
 #include "core/play/zones.h"
 
+#include "core/base/maths.h"
+
 /* Channels that two zones can share out between their members. */
 enum { BETWEEN_LEADERS = ZONES_CHANNELS - 2 };
-
-static uint32_t least(uint32_t a, uint32_t b) {
-  return a < b ? a : b;
-}
 
 void zones_set(Zones* zones, uint32_t leader, uint32_t n_members) {
   const bool is_lower = leader == ZONES_LOWER;
