@@ -75,17 +75,3 @@ double channel_gesture(const Channel* leader, const Channel* channel, Gesture ge
   }
   return 0.0;
 }
-
-void channel_keys_put(ChannelKeys* keys, uint32_t key, bool is_in) {
-  const uint64_t bit = UINT64_C(1) << (key & 63);
-  uint64_t* const half = &keys->half[key >> 6];
-  *half = is_in ? *half | bit : *half & ~bit;
-}
-
-bool channel_keys_have(const ChannelKeys* keys, uint32_t key) {
-  return keys->half[key >> 6] >> (key & 63) & 1;
-}
-
-bool channel_keys_are_none(const ChannelKeys* keys) {
-  return !(keys->half[0] | keys->half[1]);
-}

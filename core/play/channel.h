@@ -62,10 +62,18 @@ void channel_enter(Channel* channel, uint32_t parameter, uint32_t controller, ui
 double channel_gesture(const Channel* leader, const Channel* channel, Gesture gesture);
 
 /** Put `key` in or take it out. */
-void channel_keys_put(ChannelKeys* keys, uint32_t key, bool is_in);
+static inline void channel_keys_put(ChannelKeys* keys, uint32_t key, bool is_in) {
+  const uint64_t bit = UINT64_C(1) << (key & 63);
+  uint64_t* const half = &keys->half[key >> 6];
+  *half = is_in ? *half | bit : *half & ~bit;
+}
 
-bool channel_keys_have(const ChannelKeys* keys, uint32_t key);
+static inline bool channel_keys_have(const ChannelKeys* keys, uint32_t key) {
+  return keys->half[key >> 6] >> (key & 63) & 1;
+}
 
-bool channel_keys_are_none(const ChannelKeys* keys);
+static inline bool channel_keys_are_none(const ChannelKeys* keys) {
+  return !(keys->half[0] | keys->half[1]);
+}
 
 #endif

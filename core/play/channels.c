@@ -51,7 +51,7 @@ static void tell_everything(const Channels* all, uint32_t channel) {
 
 static void let_go(Channels* all, uint32_t channel) {
   Channel* const c = &all->channels[channel];
-  if (is_member(all, channel) && c->has_played && channel_keys_are_none(&c->down)) {
+  if (c->has_played && channel_keys_are_none(&c->down) && is_member(all, channel)) {
     all->to.kind->let_go(all->to.instrument, channel);
     c->has_played = false;
   }
