@@ -7,7 +7,6 @@ Sources are found by where they lie, so that a new one needs no line here:
     plugin/*.c         the plugin, hooke.lv2/hooke.so, and a static library for the tests of its parts
     ttl/, presets/     the plugin's descriptions and presets, beside it
     tools/commands/main.c       the program `hooke`; the other tools/*.c are a library which the tests share
-    tools/make_*.c     a program each, which makes a part of the plugin while that is built
     tests/test_*.c     a test program each; the other tests/*.c are linked into all of them
     tests/plant_*.c    a library each, built as the plugin is, with a fault that a test has to find
     tests/hosts/*.c    a program each, for the tests that run hosts; watch_*.c are one library, which is preloaded into them
@@ -88,7 +87,7 @@ def configure(conf):
     """finds the compiler and the libraries, and fixes the options"""
     keep_environment(conf)
     know_new_options(conf)
-    cross.prepare(conf, check_package)
+    cross.prepare(conf)
     conf.load('compiler_c')
     check_compiler(conf)
     packing.set_directories(conf)
@@ -233,7 +232,7 @@ def build_bundle(bld):
     env.cshlib_PATTERN = '%s' + library_ending(bld)
     sources = bld.path.ant_glob('plugin/*.c')
     if sources:
-        bld.shlib(source=sources + [make_programs(bld)], target='hooke.lv2/hooke', name='hooke_plugin', env=env,
+        bld.shlib(source=sources, target='hooke.lv2/hooke', name='hooke_plugin', env=env,
                   install_path=bundle, install_path_implib=None,
                   use='hooke_core LV2 M PTHREAD', linkflags=bld.env.PLUGIN_LINKFLAGS)
     for node in bld.path.ant_glob(['ttl/*.ttl', 'presets/*.ttl']):
@@ -241,19 +240,6 @@ def build_bundle(bld):
     for node in bld.path.ant_glob('ttl/*.ttl.in'):
         bld(features='subst', source=node, target='hooke.lv2/' + node.name[:-len('.in')], install_path=bundle,
             LIB_EXT=library_ending(bld))
-
-
-# The presets as C, made from the bundle as it is built.
-def make_programs(bld):
-    maker = bld.bldnode.find_or_declare('make_programs')
-    bld.program(source='tools/make/make_programs.c', target=maker, use='LILV LV2', install_path=None,
-                env=bld.all_envs.get('native', bld.env).derive())
-    turtle = [bld.bldnode.find_or_declare('hooke.lv2/' + node.name.replace('.in', ''))
-              for node in bld.path.ant_glob(['ttl/*.ttl', 'ttl/*.ttl.in', 'presets/*.ttl'])]
-    table = bld.bldnode.find_or_declare('plugin/programs_table.c')
-    bld(rule=lambda task: task.exec_command([maker.abspath(), turtle[0].parent.abspath(), table.abspath()]),
-        source=[maker] + turtle, target=table)
-    return table
 
 
 def library_ending(bld):
@@ -264,7 +250,7 @@ def build_tools(bld):
     defines = ['HOOKE_VERSION="%s"' % VERSION, 'HOOKE_LV2DIR="%s"' % bld.env.LV2DIR]
     library(bld, 'hooke_parts', bld.path.ant_glob('plugin/*.c'), use='hooke_core LV2 M')
     use = 'hooke_parts hooke_analysis hooke_core LILV SNDFILE LV2 M DL PTHREAD'
-    library(bld, 'hooke_tools', bld.path.ant_glob('tools/*/*.c', excl=['tools/commands/main.c', 'tools/make/*.c']), use=use, defines=defines)
+    library(bld, 'hooke_tools', bld.path.ant_glob('tools/*/*.c', excl=['tools/commands/main.c']), use=use, defines=defines)
     for node in bld.path.ant_glob('tools/commands/main.c'):
         bld.program(source=[node], target='hooke', name='hooke_program', use='hooke_tools ' + use, defines=defines)
     bld.install_files('${MANDIR}/man1', 'doc/hooke.1')

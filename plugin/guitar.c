@@ -4,7 +4,6 @@
 #include "core/guitar/guitar_event.h"
 #include "core/guitar/guitarist.h"
 #include "plugin/bundle.h"
-#include "plugin/guitar_midi.h"
 #include "plugin/guitar_ports.h"
 #include "plugin/instrument.h"
 
@@ -16,7 +15,6 @@
 typedef struct {
   Guitar* guitar;
   Guitarist* guitarist;
-  GuitarMidi midi;
   Controls controls;
 } Player;
 
@@ -33,14 +31,11 @@ static void* new_player(double rate_hz) {
     return NULL;
   }
   player->guitar = guitar_new(rate_hz);
-  player->guitarist = player->guitar ? guitarist_new(player->guitar) : NULL;
+  player->guitarist = player->guitar ? guitarist_new(guitar_seat(player->guitar)) : NULL;
   if (!player->guitarist) {
     free_player(player);
     return NULL;
   }
-  player->midi.guitar = player->guitar;
-  player->midi.guitarist = player->guitarist;
-  guitar_midi_reset(&player->midi);
   return player;
 }
 
@@ -48,28 +43,13 @@ static void reset(void* data) {
   Player* const player = data;
   guitarist_reset(player->guitarist);
   guitar_reset(player->guitar);
-  guitar_midi_reset(&player->midi);
-}
-
-/* Between the modes the guitarist puts the wheels back in their middle, of which a guitar that has
- * not sounded yet is to show nothing. */
-static void set_how(Player* player, const Controls* controls, bool is_fresh) {
-  const GuitaristHow how = guitar_ports_how(controls);
-  if (how.has_channels != guitar_ports_how(&player->controls).has_channels) {
-    guitar_midi_centre(&player->midi);
-  }
-  guitarist_set_how(player->guitarist, how);
-  if (is_fresh) {
-    guitar_reset(player->guitar);
-  }
 }
 
 /* How it is played from now on is no new patch to what rings. */
 static void set(void* data, const Controls* controls, uint32_t n_frames) {
   Player* const player = data;
-  const bool is_fresh = n_frames == 0;
-  set_how(player, controls, is_fresh);
-  if (is_fresh || !guitar_ports_are_same_patch(controls, &player->controls)) {
+  guitarist_set_how(player->guitarist, guitar_ports_how(controls));
+  if (n_frames == 0 || !guitar_ports_are_same_patch(controls, &player->controls)) {
     const GuitarPatch patch = guitar_ports_patch(controls);
     guitar_set_patch(player->guitar, &patch, n_frames);
     guitarist_set_patch(player->guitarist, &patch);
@@ -77,14 +57,9 @@ static void set(void* data, const Controls* controls, uint32_t n_frames) {
   player->controls = *controls;
 }
 
-static void silence(void* data) {
+static Performance perform(void* data) {
   const Player* const player = data;
-  guitarist_all_sound_off(player->guitarist);
-}
-
-static void play_midi(void* data, const uint8_t* bytes, uint32_t n_bytes, bool is_muted) {
-  Player* const player = data;
-  guitar_midi_play(&player->midi, bytes, n_bytes, is_muted);
+  return guitarist_performance(player->guitarist);
 }
 
 static void play_event(void* data, const uint8_t* body, uint32_t n_bytes, bool is_muted) {
@@ -116,16 +91,13 @@ static const InstrumentKind kind = {
     .n_ports = GUITAR_N_PORTS,
     .meters = GUITAR_PORT_SOUNDING,
     .limiter = GUITAR_PORT_LIMITER,
-    .programs = &guitar_programs,
-    .overlay_uri = GUITAR_URI "#overlay",
     .event_uri = GUITAR_EVENT_URI,
     .new = new_player,
     .free = free_player,
     .reset = reset,
     .read = guitar_ports_read,
     .set = set,
-    .silence = silence,
-    .play_midi = play_midi,
+    .perform = perform,
     .play_event = play_event,
     .run = run,
     .report = report,
@@ -147,5 +119,4 @@ const LV2_Descriptor guitar_descriptor = {
     .activate = instrument_activate,
     .run = instrument_run,
     .cleanup = instrument_cleanup,
-    .extension_data = instrument_extension,
 };

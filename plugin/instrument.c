@@ -1,11 +1,10 @@
 #include "plugin/instrument.h"
 
 #include "core/base/limiter.h"
+#include "core/play/channels.h"
 #include "plugin/denormals.h"
 #include "plugin/events.h"
 #include "plugin/outputs.h"
-#include "plugin/overlay_state.h"
-#include "plugin/port_request.h"
 #include "plugin/tuner.h"
 #include "plugin/tuner_state.h"
 
@@ -15,15 +14,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The shortest time in which a port's change takes effect [s]; else it takes the block.  A program
- * change takes just this, or what is heard would depend on the block that it is in. */
+/* The shortest time in which a port's change takes effect [s]; else it takes the block. */
 static const double SHORTEST_GLIDE_S = 0.005;
 
 typedef struct {
   LV2_URID atom_Sequence;
   LV2_URID midi_MidiEvent;
   LV2_URID own; /* The kind's own events, if there are any */
-  OverlayUrids overlay;
 } Urids;
 
 typedef struct {
@@ -33,16 +30,14 @@ typedef struct {
 
   /* Features */
   Urids urids;
-  const PortRequest* request; /* NULL: none is offered */
 
   /* Ports */
   void* ports[PORTS_MAX];
 
   /* State */
   void* player;
-  Tuner* tuner; /* NULL: it has none */
-  ProgramChoice choice;
-  Overlay overlay;
+  Channels channels; /* What MIDI has said to it */
+  Tuner* tuner;      /* NULL: it has none */
   Controls controls;
   bool is_fresh; /* Whether nothing has been played since activation: there is nothing to glide
                     from */
@@ -57,16 +52,11 @@ static Urids map_urids(const LV2_URID_Map* map, const InstrumentKind* kind) {
       .atom_Sequence = map->map(map->handle, LV2_ATOM__Sequence),
       .midi_MidiEvent = map->map(map->handle, LV2_MIDI__MidiEvent),
       .own = kind->event_uri ? map->map(map->handle, kind->event_uri) : 0,
-      .overlay = {map->map(map->handle, kind->overlay_uri),
-                  map->map(map->handle, LV2_ATOM__String)},
   };
 }
 
-/* What the ports say, and the overlay in the place of some. */
-static Controls read_controls(Instrument* self) {
-  void* over[PORTS_MAX];
-  overlay_apply(&self->overlay, self->ports, over);
-  Controls controls = self->kind->read(over);
+static Controls read_controls(const Instrument* self) {
+  Controls controls = self->kind->read(self->ports);
   controls.value[PORT_FREEWHEEL] = 0.0f; /* It sounds the same. */
   return controls;
 }
@@ -76,7 +66,7 @@ static void set_controls(Instrument* self, const Controls* controls, uint32_t n_
   self->kind->set(self->player, controls, n);
   const bool is_muted = controls->value[PORT_ENABLED] < 0.5f;
   if (is_muted && !self->is_muted) {
-    self->kind->silence(self->player);
+    channels_silence(&self->channels);
   }
   self->is_muted = is_muted;
   limiter_turn(&self->limiter, controls->value[self->kind->limiter] >= 0.5f, n);
@@ -119,28 +109,9 @@ static void write_report(Instrument* self) {
   write_value(self, self->kind->meters + 2, report.headroom);
 }
 
-static void play_program(Instrument* self, const float* values) {
-  const ProgramTable* const programs = self->kind->programs;
-  if (!values) {
-    return;
-  }
-  overlay_put(&self->overlay, self->ports, programs->n_ports, programs->ports, values);
-  const Controls controls = read_controls(self);
-  if (!ports_are_same(&controls, &self->controls)) {
-    set_controls(self, &controls, self->n_shortest);
-  }
-  port_request_move(self->request, self->ports, programs->n_ports, programs->ports, values);
-}
-
-/* What chooses a program is no playing yet. */
 static void play_midi(Instrument* self, const Event* event) {
-  const MidiMessage message = midi_read(event->body, event->size);
-  if (programs_are_chosen_by(&message)) {
-    play_program(self, programs_hear(&self->choice, self->kind->programs, &message));
-  } else {
-    self->is_fresh = false;
-    self->kind->play_midi(self->player, event->body, event->size, self->is_muted);
-  }
+  self->is_fresh = false;
+  channels_play(&self->channels, event->body, event->size, self->is_muted);
 }
 
 static void play_own(Instrument* self, const Event* event) {
@@ -210,9 +181,7 @@ static LV2_State_Status save(LV2_Handle handle,
                              const LV2_Feature* const* features) {
   Instrument* const self = handle;
   (void)flags;
-  const LV2_State_Status status =
-      overlay_state_save(&self->overlay, &self->urids.overlay, store, state);
-  return status || !self->tuner ? status : tuner_state_save(self->tuner, store, state, features);
+  return tuner_state_save(self->tuner, store, state, features);
 }
 
 static LV2_State_Status restore(LV2_Handle handle,
@@ -222,11 +191,7 @@ static LV2_State_Status restore(LV2_Handle handle,
                                 const LV2_Feature* const* features) {
   Instrument* const self = handle;
   (void)flags;
-  const LV2_State_Status status = overlay_state_restore(&self->overlay, &self->urids.overlay,
-                                                        self->kind->programs, retrieve, state);
-  const LV2_State_Status of_tuner =
-      self->tuner ? tuner_state_restore(self->tuner, retrieve, state, features) : status;
-  return status ? status : of_tuner;
+  return tuner_state_restore(self->tuner, retrieve, state, features);
 }
 
 LV2_Handle
@@ -240,13 +205,14 @@ instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* co
   self->rate_hz = rate_hz;
   limiter_init(&self->limiter, rate_hz);
   self->urids = map_urids(map, kind);
-  self->request = lv2_features_data(features, PORT_REQUEST_URI);
   self->player = kind->new (rate_hz);
   self->tuner = kind->tuner ? tuner_new(map, features, kind->tuner) : NULL;
   if (!self->player || (kind->tuner && !self->tuner)) {
     free_instrument(self);
     return NULL;
   }
+  self->channels.to = kind->perform(self->player);
+  channels_reset(&self->channels);
   self->n_shortest = (uint32_t)(SHORTEST_GLIDE_S * rate_hz) + 1;
   return self;
 }
@@ -261,8 +227,8 @@ void instrument_connect_port(LV2_Handle handle, uint32_t index, void* data) {
 void instrument_activate(LV2_Handle handle) {
   Instrument* const self = handle;
   self->kind->reset(self->player);
+  channels_reset(&self->channels);
   limiter_init(&self->limiter, self->rate_hz);
-  self->choice = (ProgramChoice){{0}};
   self->is_fresh = true;
 }
 
@@ -272,7 +238,6 @@ void instrument_run(LV2_Handle handle, uint32_t n_frames) {
   LV2_Atom_Sequence* const notify = self->ports[PORT_NOTIFY];
   const uint32_t room = events_write_none(notify, self->urids.atom_Sequence);
   take_scale(self);
-  overlay_take(&self->overlay);
   take_controls(self, n_frames);
   play_block(self, self->ports[PORT_CONTROL], n_frames);
   self->is_fresh = false;
@@ -289,10 +254,9 @@ void instrument_cleanup(LV2_Handle handle) {
 
 const void* instrument_extension(const char* uri) {
   static const LV2_State_Interface state = {.save = save, .restore = restore};
-  return strcmp(uri, LV2_STATE__interface) ? NULL : &state;
-}
-
-const void* instrument_tuner_extension(const char* uri) {
   static const LV2_Worker_Interface worker = {.work = work, .work_response = work_response};
-  return strcmp(uri, LV2_WORKER__interface) ? instrument_extension(uri) : &worker;
+  if (!strcmp(uri, LV2_STATE__interface)) {
+    return &state;
+  }
+  return strcmp(uri, LV2_WORKER__interface) ? NULL : &worker;
 }

@@ -4,9 +4,7 @@
    An InstrumentKind says what is its own.  Events split the block: the frames until an event are
    run before it is played.  The ports are read once a block, and so are new pitches of its keys.
 
-   A program change lays the values of a preset over the ports, each until the host moves its port,
-   and asks the host, if it offers that, to move them there.  What lies over the ports is kept in
-   the state; a state, and so a preset of the host's, that has nothing of that takes it away.
+   Presets are the host's: program changes and banks are ignored.
 
    Thread: as LV2 has it; all but instrument_new(), instrument_cleanup() and what the extensions
    lead to is real-time safe.
@@ -14,8 +12,8 @@
 #ifndef HOOKE_PLUGIN_INSTRUMENT_H
 #define HOOKE_PLUGIN_INSTRUMENT_H
 
+#include "core/play/performance.h"
 #include "plugin/ports.h"
-#include "plugin/programs.h"
 #include "plugin/tuner_urids.h"
 
 #include <lv2/core/lv2.h>
@@ -38,15 +36,13 @@ typedef struct {
   uint32_t meters;  /**< Index of the first of the three ports that report: strings sounding, their
                        masses and the headroom */
   uint32_t limiter; /**< Index of the port that turns the limiter on */
-  const ProgramTable* programs; /**< What program changes select */
-  const char* overlay_uri;      /**< What is laid over the ports is called, in a state */
   const char* event_uri; /**< Type of the atoms that `play_event` takes; NULL: there are none */
 
   /** Make a player at rest; NULL if there is no memory or the rate is no rate. */
   void* (*new)(double rate_hz);
   void (*free)(void* player);
 
-  /** Bring it to rest, with nothing held, bent or touched. */
+  /** Bring it to rest, with nothing held, bent or touched, and no gesture of any channel. */
   void (*reset)(void* player);
 
   /** Read the control inputs. */
@@ -55,13 +51,11 @@ typedef struct {
   /** Take new values, and get there in `n_frames`, 0: at once. */
   void (*set)(void* player, const Controls* controls, uint32_t n_frames);
 
-  /** All sound off. */
-  void (*silence)(void* player);
+  /** How MIDI plays it; asked once. */
+  Performance (*perform)(void* player);
 
-  /** Play a MIDI message; what makes a string sound is left out if the instrument is muted. */
-  void (*play_midi)(void* player, const uint8_t* bytes, uint32_t n_bytes, bool is_muted);
-
-  /** Play the body of an atom of type `event_uri`, of any alignment. */
+  /** Play the body of an atom of type `event_uri`, of any alignment; what makes a string sound is
+   * left out if the instrument is muted. */
   void (*play_event)(void* player, const uint8_t* body, uint32_t n_bytes, bool is_muted);
 
   /** Run at most INSTRUMENT_FRAMES frames. */
@@ -86,10 +80,7 @@ void instrument_activate(LV2_Handle handle);
 void instrument_run(LV2_Handle handle, uint32_t n_frames);
 void instrument_cleanup(LV2_Handle handle);
 
-/** For one that has no tuner: its state. */
+/** For one that has a tuner: its state and its work. */
 const void* instrument_extension(const char* uri);
-
-/** For one that has: its state and its work. */
-const void* instrument_tuner_extension(const char* uri);
 
 #endif

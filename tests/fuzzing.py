@@ -47,15 +47,11 @@ def helpers(bld):
     return bld.path.ant_glob('tests/fuzz/*.c', excl=['tests/fuzz/fuzz_*.c', 'tests/fuzz/replay.c'])
 
 
-def programs_table(bld):
-    return [bld.bldnode.find_or_declare('plugin/programs_table.c')]
-
-
 def build_replays(bld, use):
     """builds test_fuzz_NAME of every harness"""
     bld.stlib(source=helpers(bld), target='hooke_fuzz', install_path=None, use=use)
     for name in harnesses(bld):
-        sources = ['tests/fuzz/%s.c' % name, 'tests/fuzz/replay.c'] + programs_table(bld)
+        sources = ['tests/fuzz/%s.c' % name, 'tests/fuzz/replay.c']
         bld.program(source=sources, target='tests/test_' + name, use='hooke_fuzz ' + use, install_path=None,
                     defines=['FUZZ_NAME="%s"' % name[len('fuzz_'):]])
 
@@ -67,7 +63,7 @@ def build(bld, analysis, avx2):
     for_avx2 = bld.path.ant_glob('core/*/*_avx2.c') if bld.env.DEST_CPU == 'x86_64' else []
     core = bld.path.ant_glob('core/*/*.c', excl=[analysis, 'core/*/*_avx2.c'])
     defines = ['HOOKE_AVX2'] if for_avx2 else []
-    rest = bld.path.ant_glob(TOOLS + ['plugin/*.c']) + programs_table(bld) + helpers(bld)
+    rest = bld.path.ant_glob(TOOLS + ['plugin/*.c']) + helpers(bld)
 
     def library(name, sources, **more):
         bld.stlib(source=sources, target='fuzz/' + name, install_path=None, env=environment(bld), **more)

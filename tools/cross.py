@@ -7,20 +7,16 @@ is built, and the tests are run by qemu. Where they are not, as for Windows, the
 import os
 import subprocess
 
-# Meant for the other machine, and not for programs that are run while this one builds.
-FOR_TARGET = ['CC', 'AR', 'CFLAGS', 'CPPFLAGS', 'LDFLAGS', 'LINKFLAGS', 'PKG_CONFIG_PATH']
-
 
 def options(opt):
     opt.add_option('--cross', metavar='TRIPLE', help='configure: build for that machine, as aarch64-linux-gnu')
 
 
-def prepare(conf, check_package):
+def prepare(conf):
     """Choose the compilers and where pkg-config looks, before they are asked."""
     triple = conf.options.cross
     if not triple:
         return
-    prepare_native(conf, check_package)
     conf.environ.setdefault('CC', triple + '-gcc')
     conf.environ.setdefault('AR', triple + '-ar')
     system = get_system(conf, triple)
@@ -32,19 +28,6 @@ def prepare(conf, check_package):
         conf.env.CFLAGS = conf.env.LINKFLAGS = ['--sysroot=' + system]
     else:
         conf.msg('At hand for ' + triple, 'no libraries, so that the bundle alone is built', 'YELLOW')
-
-
-# Some of the bundle is made by a program, which has to run here.
-def prepare_native(conf, check_package):
-    kept = {name: conf.environ.pop(name) for name in FOR_TARGET if name in conf.environ}
-    conf.setenv('native')
-    conf.load('compiler_c')
-    for package in ['lv2', 'lilv-0']:
-        check_package(conf, package)
-    conf.env.CFLAGS = ['-std=c11']
-    conf.env.INCLUDES = [conf.path.abspath()]
-    conf.setenv('')
-    conf.environ.update(kept)
 
 
 # None where Debian does not have that machine's packages, or where they are not to be fetched.

@@ -71,6 +71,11 @@ double guitar_force(uint32_t velocity) {
   return share * share;
 }
 
+double guitar_hardness(double hardness, double force) {
+  const double harder = FORCE_HARDNESS * (sqrt(fabs(force)) - FORCE_NEUTRAL);
+  return clamp(hardness + harder, 0.0, 1.0);
+}
+
 Guitar* guitar_new(double rate_hz) {
   Guitar* const guitar = isfinite(rate_hz) && rate_hz > 0.0 ? calloc(1, sizeof(Guitar)) : NULL;
   if (!guitar) {
@@ -90,6 +95,7 @@ Guitar* guitar_new(double rate_hz) {
     guitar_string_init(&guitar->strings[w], &guitar->patch, rate_hz, w, memory);
     guitar_string_init(&guitar->rests[w], &guitar->patch, rate_hz, w, memory + size);
   }
+  guitar_mixer_init(&guitar->mixer);
   return guitar;
 }
 
@@ -108,6 +114,9 @@ void guitar_reset(Guitar* guitar) {
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     guitar_string_reset(&guitar->strings[w]);
     guitar_string_reset(&guitar->rests[w]);
+  }
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    guitar_mixer_set_gain(&guitar->mixer, &guitar->patch, s, 1.0, 0);
   }
   guitar->weight = 0.0;
   set_palm(guitar);
@@ -132,7 +141,6 @@ void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frame
 
 void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
   const GuitarPatch* const patch = &guitar->patch;
-  const double harder = FORCE_HARDNESS * (sqrt(fabs(pluck.force)) - FORCE_NEUTRAL);
   const double place = isnan(pluck.place) ? patch->pluck : pluck.place;
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
     GuitarString* const s = string_of(guitar, string, side);
@@ -140,8 +148,8 @@ void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
     if (share > 0.0 || s->voice.is_awake) {
       const Pluck own = {
           .place = guitar_string_place(s, place),
-          .hardness =
-              isnan(pluck.hardness) ? clamp(patch->hardness + harder, 0.0, 1.0) : pluck.hardness,
+          .hardness = isnan(pluck.hardness) ? guitar_hardness(patch->hardness, pluck.force)
+                                            : pluck.hardness,
           .amplitude = GUITAR_NOTE_PEAK * share * pluck.force,
       };
       guitar_string_leave(s, rest_of(guitar, s));
@@ -218,6 +226,21 @@ void guitar_choke(Guitar* guitar) {
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     guitar_string_damp(&guitar->strings[w], GUITAR_CHOKED, 0);
     guitar_string_untouch(&guitar->strings[w]);
+  }
+}
+
+void guitar_choke_string(Guitar* guitar, uint32_t string) {
+  for (int side = 0; string < GUITAR_STRINGS && side < 2; ++side) {
+    GuitarString* const s = string_of(guitar, string, side);
+    guitar_string_damp(s, GUITAR_CHOKED, 0);
+    guitar_string_untouch(s);
+  }
+}
+
+void guitar_set_gain(Guitar* guitar, uint32_t string, double gain) {
+  if (string < GUITAR_STRINGS) {
+    guitar_mixer_set_gain(&guitar->mixer, &guitar->patch, string, gain,
+                          guitar_is_awake(guitar, string) ? guitar->n_gesture : 0);
   }
 }
 

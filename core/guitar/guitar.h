@@ -34,6 +34,9 @@
  * harp. */
 double guitar_force(uint32_t velocity);
 
+/** The patch's hardness as it is heard of a pluck, 0 to 1: a little harder for a stronger one. */
+double guitar_hardness(double hardness, double force);
+
 /** What is sounding. */
 typedef struct {
   uint32_t n_strings; /**< Strings awake, those of a course each */
@@ -104,6 +107,12 @@ void guitar_palm(Guitar* guitar, double weight);
 
 /** Every string silent in a few hundredths of a second, fretted as it is and touched by nobody. */
 void guitar_choke(Guitar* guitar);
+
+/** The same of one. */
+void guitar_choke_string(Guitar* guitar, uint32_t string);
+
+/** Gain of a string beside the patch's level, ≥ 0; what rings gets there in a gesture. */
+void guitar_set_gain(Guitar* guitar, uint32_t string, double gain);
 
 /* Looks */
 

@@ -47,15 +47,13 @@ static bool is_valid(const GuitarEvent* event) {
   return are_in;
 }
 
-bool guitar_event_play(Guitar* guitar, const GuitarEvent* event) {
-  if (!is_valid(event)) {
-    return false;
-  }
-  const uint32_t s = event->string;
-  const double a = (double)event->value[0];
-  const double b = (double)event->value[1];
-  const double c = (double)event->value[2];
-  switch ((GuitarVerb)event->verb) {
+static void act(void* instrument, const GuitarAct* act) {
+  Guitar* const guitar = instrument;
+  const uint32_t s = act->string;
+  const double a = act->value[0];
+  const double b = act->value[1];
+  const double c = act->value[2];
+  switch (act->verb) {
   case GUITAR_PLUCK:
     guitar_pluck(guitar, s, (GuitarPluck){a, b, c});
     break;
@@ -86,8 +84,36 @@ bool guitar_event_play(Guitar* guitar, const GuitarEvent* event) {
   case GUITAR_PALM:
     guitar_palm(guitar, a);
     break;
-  case GUITAR_N_VERBS:
+  case GUITAR_CHOKE:
+    guitar_choke_string(guitar, s);
+    break;
+  case GUITAR_GAIN:
+    guitar_set_gain(guitar, s, a);
     break;
   }
+}
+
+static bool is_awake(const void* guitar, uint32_t string) {
+  return guitar_is_awake(guitar, string);
+}
+
+static void run(void* guitar, uint32_t n_frames, float* left, float* right) {
+  guitar_run(guitar, n_frames, left, right);
+}
+
+GuitarSeat guitar_seat(Guitar* guitar) {
+  return (GuitarSeat){guitar, guitar_rate_hz(guitar), act, is_awake, run};
+}
+
+bool guitar_event_play(Guitar* guitar, const GuitarEvent* event) {
+  if (!is_valid(event)) {
+    return false;
+  }
+  const GuitarAct exact = {
+      .verb = (GuitarVerb)event->verb,
+      .string = event->string,
+      .value = {(double)event->value[0], (double)event->value[1], (double)event->value[2]},
+  };
+  act(guitar, &exact);
   return true;
 }

@@ -1,10 +1,10 @@
 /**
-   What the hands do, as data: the events of the paper's script.
+   What the hands do, as data: the events of the paper's script, and the acts of a guitarist.
 
    An event is sent to the plugin as the body of an atom of type GUITAR_EVENT_URI, and acts at its
-   frame.
+   frame.  An act is what is done in the end, in doubles.
 
-   Thread: any; guitar_event_play() as the guitar.
+   Thread: any; what plays, as the guitar.
 */
 #ifndef HOOKE_CORE_GUITAR_GUITAR_EVENT_H
 #define HOOKE_CORE_GUITAR_GUITAR_EVENT_H
@@ -34,7 +34,11 @@
   X(PALM, "weight", "", "")
 
 #define GUITAR_VERB_ENUM(verb, a, b, c) GUITAR_##verb,
-typedef enum { GUITAR_VERBS(GUITAR_VERB_ENUM) GUITAR_N_VERBS } GuitarVerb;
+typedef enum {
+  GUITAR_VERBS(GUITAR_VERB_ENUM) GUITAR_N_VERBS, /**< Those of events; and acts that are none: */
+  GUITAR_CHOKE = GUITAR_N_VERBS,                 /**< Silence the string in a moment */
+  GUITAR_GAIN                                    /**< Bring it to a gain, value 0 */
+} GuitarVerb;
 #undef GUITAR_VERB_ENUM
 
 /** One event; what it does not use is 0. */
@@ -43,6 +47,25 @@ typedef struct {
   uint32_t string; /**< From 0, the highest */
   float value[3];  /**< As GUITAR_VERBS says; times in seconds; NAN where the function takes it */
 } GuitarEvent;
+
+/** Something that is done to a string, in doubles. */
+typedef struct {
+  GuitarVerb verb;
+  uint32_t string;
+  double value[3]; /**< As GUITAR_VERBS says */
+} GuitarAct;
+
+/** A guitar under somebody's hands: one that sounds, or one that writes down what is done to it. */
+typedef struct {
+  void* guitar;
+  double rate_hz;
+  void (*act)(void* guitar, const GuitarAct* act);
+  bool (*is_awake)(const void* guitar, uint32_t string);
+  void (*run)(void* guitar, uint32_t n_frames, float* left, float* right);
+} GuitarSeat;
+
+/** The seat at a guitar that sounds; it must outlive who sits there. */
+GuitarSeat guitar_seat(Guitar* guitar);
 
 /**
    Do what an event says.  GUITAR_PALM is of all strings.

@@ -10,16 +10,38 @@ static double place_of(const GuitarPatch* patch, uint32_t string) {
   return fmin(fmax(patch->width * place, -1.0), 1.0);
 }
 
+void guitar_mixer_init(GuitarMixer* mixer) {
+  *mixer = (GuitarMixer){.gain = {0.0}};
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    mixer->gain[s] = 1.0;
+  }
+}
+
 /* As loud in any place. */
+static void pan(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t voice, uint32_t n_frames) {
+  const uint32_t string = voice % GUITAR_STRINGS;
+  const double place = place_of(patch, string);
+  const double gain = mixer->gain[string];
+  line_to(&mixer->pans[voice][0], gain * sqrt(1.0 - place), n_frames);
+  line_to(&mixer->pans[voice][1], gain * sqrt(1.0 + place), n_frames);
+}
+
 void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_frames) {
   line_to(&mixer->level, patch->level, n_frames);
   for (int p = 0; p < GUITAR_PICKUPS; ++p) {
     line_to(&mixer->gains[p], patch->pickups[p].gain, n_frames);
   }
-  for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
-    const double place = place_of(patch, w % GUITAR_STRINGS);
-    line_to(&mixer->pans[w][0], sqrt(1.0 - place), n_frames);
-    line_to(&mixer->pans[w][1], sqrt(1.0 + place), n_frames);
+  for (uint32_t v = 0; v < GUITAR_VOICES; ++v) {
+    pan(mixer, patch, v, n_frames);
+  }
+}
+
+void guitar_mixer_set_gain(
+    GuitarMixer* mixer, const GuitarPatch* patch, uint32_t string, double gain, uint32_t n_frames) {
+  if (gain != mixer->gain[string]) {
+    mixer->gain[string] = gain;
+    pan(mixer, patch, string, n_frames);
+    pan(mixer, patch, string + GUITAR_STRINGS, n_frames);
   }
 }
 

@@ -17,6 +17,7 @@ enum { GUITAR_VOICES = 2 * GUITAR_STRINGS /**< The strings, and then those besid
 
 /** Zero is silent. */
 typedef struct {
+  double gain[GUITAR_STRINGS]; /**< Of each string, beside the level */
   Line level;
   Line gains[GUITAR_PICKUPS];
   Line pans[GUITAR_VOICES][2]; /**< Left and right */
@@ -25,8 +26,15 @@ typedef struct {
   float sides[2][GUITAR_MIX_FRAMES];
 } GuitarMixer;
 
+/** Silent, with every string's gain 1. */
+void guitar_mixer_init(GuitarMixer* mixer);
+
 /** Go to what the patch says in `n_frames`. */
 void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_frames);
+
+/** Bring one string, and the one beside it, to a gain in `n_frames`. */
+void guitar_mixer_set_gain(
+    GuitarMixer* mixer, const GuitarPatch* patch, uint32_t string, double gain, uint32_t n_frames);
 
 /** Run all GUITAR_VOICES strings, and what is left of each, for `n_frames`, and write what is heard
  * to `left` and `right`. */

@@ -1,6 +1,7 @@
 #include "core/guitar/guitarist.h"
 
 #include "core/guitar/guitarist_chord.h"
+#include "core/guitar/guitarist_state.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +11,9 @@ static const double TOUCH_PERIODS = 20.0;
 static const double LEAST_TOUCH_S = 0.03;
 static const double MOST_TOUCH_S = 0.4;
 
-static const double VIBRATO_HZ = 5.5;
+/* What full brightness does to hardness. */
+static const double BRIGHTNESS_HARDNESS = 0.4;
+
 static const uint32_t MOST_VELOCITY = 127;
 
 static const GuitarPatch USUAL = {
@@ -24,12 +27,22 @@ static double touch_s(const Guitarist* guitarist, uint32_t key) {
   return fmin(fmax(TOUCH_PERIODS / f0_hz, LEAST_TOUCH_S), MOST_TOUCH_S);
 }
 
+/* The patch's, unless the channel makes it brighter or darker. */
+static double hardness_of(const Guitarist* guitarist, uint32_t channel, uint32_t velocity) {
+  const double brightness = guitarist->channels[channel].brightness;
+  const double usual = guitar_hardness(guitarist->hardness, guitar_force(velocity));
+  const double hardness = usual + BRIGHTNESS_HARDNESS * brightness;
+  return brightness == 0.0 ? (double)NAN : fmin(fmax(hardness, 0.0), 1.0);
+}
+
 static void play_note(Guitarist* guitarist, const GuitaristEvent* event) {
   const GuitaristHand hand = guitarist_chord_hand(guitarist, event->string);
   const GuitaristNote note = {
       .channel = event->channel,
+      .holders = UINT32_C(1) << event->channel,
       .key = event->key,
       .velocity = event->value,
+      .hardness = hardness_of(guitarist, event->channel, event->value),
       .fret = guitarist_chord_fret(guitarist, event->string, event->key),
       .harmonic = guitarist->how.harmonic,
       .touch_s = touch_s(guitarist, event->key),
@@ -50,9 +63,8 @@ static void play_note(Guitarist* guitarist, const GuitaristEvent* event) {
 static void lift_key(Guitarist* guitarist, const GuitaristEvent* event) {
   const bool is_legato = guitarist->how.legato > 0 && event->key != GUITARIST_ANY_KEY;
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
-    const GuitaristHand hand = guitarist_chord_hand(guitarist, s);
-    const bool is_pedal = guitarist_chord_is_pedalled(guitarist, hand.string->note.channel);
-    guitarist_string_release(hand, event->channel, event->key, is_legato, is_pedal);
+    guitarist_string_release(guitarist_chord_hand(guitarist, s), event->channel, event->key,
+                             is_legato);
   }
 }
 
@@ -60,11 +72,22 @@ static void lift_key(Guitarist* guitarist, const GuitaristEvent* event) {
 static void look_at_pedals(Guitarist* guitarist) {
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
     const GuitaristHand hand = guitarist_chord_hand(guitarist, s);
-    if (hand.string->hold == GUITARIST_PEDAL &&
-        !guitarist_chord_is_pedalled(guitarist, hand.string->note.channel)) {
-      guitarist_string_let_go(hand, false);
+    if (hand.string->hold == GUITARIST_FOOT) {
+      guitarist_string_let_go(hand);
     }
   }
+}
+
+/* It catches what is held when it goes down. */
+static void move_sostenuto(Guitarist* guitarist, uint32_t channel, bool is_down) {
+  GuitaristChannel* const c = &guitarist->channels[channel];
+  for (uint32_t s = 0; is_down != c->is_sostenuto_down && s < GUITAR_STRINGS; ++s) {
+    GuitaristString* const string = &guitarist->strings[s];
+    if (string->note.channel == channel) {
+      string->is_caught = is_down && string->hold == GUITARIST_KEY;
+    }
+  }
+  c->is_sostenuto_down = is_down;
 }
 
 static void act(Guitarist* guitarist, const GuitaristEvent* event) {
@@ -75,8 +98,12 @@ static void act(Guitarist* guitarist, const GuitaristEvent* event) {
   case GUITARIST_NOTE_OFF:
     lift_key(guitarist, event);
     break;
-  case GUITARIST_PEDAL_MOVE:
-    guitarist->is_pedal_down[event->channel] = event->value > 0;
+  case GUITARIST_PEDAL:
+    guitarist->channels[event->channel].is_pedal_down = event->value > 0;
+    look_at_pedals(guitarist);
+    break;
+  case GUITARIST_SOSTENUTO:
+    move_sostenuto(guitarist, event->channel, event->value > 0);
     look_at_pedals(guitarist);
     break;
   }
@@ -107,15 +134,55 @@ static void take(Guitarist* guitarist, GuitaristEvent event) {
   }
 }
 
-static bool is_of_midi(uint32_t channel, uint32_t key) {
-  return channel < GUITARIST_CHANNELS && key < GUITARIST_KEYS;
+/* What a channel did in this frame is not done. */
+static void forget_events(Guitarist* guitarist, uint32_t channel) {
+  uint32_t n_kept = 0;
+  for (uint32_t i = 0; i < guitarist->n_events; ++i) {
+    const GuitaristEvent event = guitarist->events[i];
+    if (event.channel != channel) {
+      guitarist->events[n_kept++] = event;
+    } else {
+      guitarist->n_notes -= event.verb == GUITARIST_NOTE_ON;
+    }
+  }
+  guitarist->n_events = n_kept;
 }
 
-Guitarist* guitarist_new(Guitar* guitar) {
+static bool is_of_midi(uint32_t channel, uint32_t key) {
+  return channel < PERFORMANCE_CHANNELS && key < PERFORMANCE_KEYS;
+}
+
+/* A string that nobody has played yet follows the channel that it belongs to, or whoever moves. */
+static bool follows(const Guitarist* guitarist, uint32_t string, uint32_t channel) {
+  const GuitaristString* const s = &guitarist->strings[string];
+  if (s->has_played) {
+    return s->note.channel == channel && !s->is_let_go;
+  }
+  return !guitarist->how.has_channels || guitarist->channels[channel].seat == string;
+}
+
+/* The channel has another touch, and so have all strings that follow it. */
+static void feel(Guitarist* guitarist, uint32_t channel) {
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    if (follows(guitarist, s, channel)) {
+      guitarist_string_feel(guitarist_chord_hand(guitarist, s), channel);
+    }
+  }
+}
+
+/* The palm lies on all strings, as heavily as the heaviest channel says. */
+static void lay_palm(const Guitarist* guitarist) {
+  GuitarAct palm = {.verb = GUITAR_PALM};
+  for (uint32_t c = 0; c < PERFORMANCE_CHANNELS; ++c) {
+    palm.value[0] = fmax(palm.value[0], guitarist->channels[c].softness);
+  }
+  guitarist->seat.act(guitarist->seat.guitar, &palm);
+}
+
+Guitarist* guitarist_new(GuitarSeat seat) {
   Guitarist* const guitarist = calloc(1, sizeof(Guitarist));
   if (guitarist) {
-    guitarist->guitar = guitar;
-    guitarist->rate_hz = guitar_rate_hz(guitar);
+    guitarist->seat = seat;
     guitarist_set_patch(guitarist, &USUAL);
     guitarist_reset(guitarist);
   }
@@ -128,10 +195,10 @@ void guitarist_free(Guitarist* guitarist) {
 
 void guitarist_reset(Guitarist* guitarist) {
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
-    guitarist->strings[s] = (GuitaristString){0};
+    guitarist->strings[s] = (GuitaristString){.touch = {.gain = 1.0}};
   }
-  for (uint32_t c = 0; c < GUITARIST_CHANNELS; ++c) {
-    guitarist->is_pedal_down[c] = false;
+  for (uint32_t c = 0; c < PERFORMANCE_CHANNELS; ++c) {
+    guitarist->channels[c] = (GuitaristChannel){.gain = 1.0, .seat = c};
   }
   guitarist->strum = (GuitaristStrum){0};
   guitarist->position = 1;
@@ -140,21 +207,15 @@ void guitarist_reset(Guitarist* guitarist) {
 }
 
 void guitarist_set_how(Guitarist* guitarist, GuitaristHow how) {
-  if (how.has_channels == guitarist->how.has_channels) {
-    guitarist->how = how;
-    return;
+  if (how.has_channels != guitarist->how.has_channels) {
+    end_frame(guitarist);
   }
-  end_frame(guitarist);
   guitarist->how = how;
-  look_at_pedals(guitarist);
-  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
-    guitar_bend(guitarist->guitar, s, 0.0, 0.0);
-    guitar_vibrato(guitarist->guitar, s, 0.0, VIBRATO_HZ);
-  }
 }
 
 void guitarist_set_patch(Guitarist* guitarist, const GuitarPatch* patch) {
   guitarist->tuning_hz = patch->string.tuning_hz;
+  guitarist->hardness = patch->hardness;
   guitarist->n_strings = patch->n_strings;
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
     guitarist->open[s] = patch->open[s] + patch->capo;
@@ -176,38 +237,97 @@ void guitarist_note_off(Guitarist* guitarist, uint32_t channel, uint32_t key) {
   }
 }
 
-void guitarist_bend(Guitarist* guitarist, uint32_t channel, double semitones) {
+void guitarist_gesture(Guitarist* guitarist, uint32_t channel, Gesture gesture, double value) {
+  if (!is_of_midi(channel, 0)) {
+    return;
+  }
+  GuitaristChannel* const c = &guitarist->channels[channel];
+  switch (gesture) {
+  case GESTURE_BEND:
+    c->bend = fmin(fmax(value, -GUITARIST_MOST_BEND), GUITARIST_MOST_BEND);
+    feel(guitarist, channel);
+    break;
+  case GESTURE_VIBRATO:
+    c->vibrato = value;
+    feel(guitarist, channel);
+    break;
+  case GESTURE_PRESSURE:
+    c->pressure = value;
+    feel(guitarist, channel);
+    break;
+  case GESTURE_GAIN:
+    c->gain = value;
+    feel(guitarist, channel);
+    break;
+  case GESTURE_BRIGHTNESS:
+    c->brightness = value;
+    break;
+  case GESTURE_SOFTNESS:
+    c->softness = value;
+    lay_palm(guitarist);
+    break;
+  case GESTURE_DAMPER:
+    take(guitarist, (GuitaristEvent){GUITARIST_PEDAL, channel, 0, value >= 1.0, 0, 0});
+    break;
+  case GESTURE_SOSTENUTO:
+    take(guitarist, (GuitaristEvent){GUITARIST_SOSTENUTO, channel, 0, value > 0.0, 0, 0});
+    break;
+  case GESTURE_BREATH:
+  case N_GESTURES:
+    break;
+  }
+}
+
+void guitarist_press_key(Guitarist* guitarist, uint32_t channel, uint32_t key, double pressure) {
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
-    if (s == channel || !guitarist->how.has_channels) {
-      guitar_bend(guitarist->guitar, s, semitones, 0.0);
+    const GuitaristHand hand = guitarist_chord_hand(guitarist, s);
+    const GuitaristNote* const note = &hand.string->note;
+    if (hand.string->hold == GUITARIST_KEY && note->channel == channel && note->key == key) {
+      hand.string->leaned_on = pressure;
+      guitarist_string_feel(hand, channel);
     }
   }
 }
 
-void guitarist_pedal(Guitarist* guitarist, uint32_t channel, bool is_down) {
-  if (is_of_midi(channel, 0)) {
-    take(guitarist, (GuitaristEvent){GUITARIST_PEDAL_MOVE, channel, 0, is_down, 0, 0});
-  }
-}
-
-void guitarist_vibrato(Guitarist* guitarist, uint32_t channel, double depth) {
+void guitarist_let_go(Guitarist* guitarist, uint32_t channel) {
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
-    if (s == channel || !guitarist->how.has_channels) {
-      guitar_vibrato(guitarist->guitar, s, depth, VIBRATO_HZ);
-    }
+    GuitaristString* const string = &guitarist->strings[s];
+    const bool is_up = string->note.channel == channel && string->hold != GUITARIST_KEY;
+    string->is_let_go = string->is_let_go || (string->has_played && is_up);
   }
 }
 
 void guitarist_all_notes_off(Guitarist* guitarist, uint32_t channel) {
   if (is_of_midi(channel, 0)) {
-    const uint32_t all = guitarist->how.has_channels ? channel : GUITARIST_ANY_CHANNEL;
-    take(guitarist, (GuitaristEvent){GUITARIST_NOTE_OFF, all, GUITARIST_ANY_KEY, 0, 0, 0});
+    take(guitarist, (GuitaristEvent){GUITARIST_NOTE_OFF, channel, GUITARIST_ANY_KEY, 0, 0, 0});
   }
 }
 
-void guitarist_all_sound_off(Guitarist* guitarist) {
-  guitarist_reset(guitarist);
-  guitar_choke(guitarist->guitar);
+/* Once nobody plays any more the hand goes back to where it began. */
+void guitarist_all_sound_off(Guitarist* guitarist, uint32_t channel) {
+  bool is_over = true;
+  forget_events(guitarist, channel);
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    GuitaristString* const string = &guitarist->strings[s];
+    const GuitaristHand hand = guitarist_chord_hand(guitarist, s);
+    if (!string->has_played || string->note.channel == channel) {
+      guitarist_string_choke(hand);
+    } else {
+      guitarist_string_release(hand, channel, GUITARIST_ANY_KEY, false);
+    }
+    is_over = is_over && !string->has_played;
+  }
+  guitarist->channels[channel].is_pedal_down = false;
+  guitarist->channels[channel].is_sostenuto_down = false;
+  look_at_pedals(guitarist);
+  if (is_over) {
+    guitarist->strum = (GuitaristStrum){0};
+    guitarist->position = 1;
+  }
+}
+
+void guitarist_seat(Guitarist* guitarist, uint32_t channel, uint32_t seat) {
+  guitarist->channels[channel].seat = seat;
 }
 
 /* Pluck what is due; how many frames there are until the next, at most `n_frames`. */
@@ -230,8 +350,46 @@ void guitarist_run(Guitarist* guitarist, uint32_t n_frames, float* left, float* 
   }
   for (uint32_t done = 0; done < n_frames;) {
     const uint32_t n = pluck_what_is_due(guitarist, n_frames - done);
-    guitar_run(guitarist->guitar, n, left + done, right + done);
+    guitarist->seat.run(guitarist->seat.guitar, n, left + done, right + done);
     guitarist->now += n;
     done += n;
   }
+}
+
+static void note_on(void* guitarist, uint32_t channel, uint32_t key, uint32_t velocity) {
+  guitarist_note_on(guitarist, channel, key, velocity);
+}
+
+static void note_off(void* guitarist, uint32_t channel, uint32_t key) {
+  guitarist_note_off(guitarist, channel, key);
+}
+
+static void gesture(void* guitarist, uint32_t channel, Gesture what, double value) {
+  guitarist_gesture(guitarist, channel, what, value);
+}
+
+static void press_key(void* guitarist, uint32_t channel, uint32_t key, double pressure) {
+  guitarist_press_key(guitarist, channel, key, pressure);
+}
+
+static void let_go(void* guitarist, uint32_t channel) {
+  guitarist_let_go(guitarist, channel);
+}
+
+static void all_notes_off(void* guitarist, uint32_t channel) {
+  guitarist_all_notes_off(guitarist, channel);
+}
+
+static void all_sound_off(void* guitarist, uint32_t channel) {
+  guitarist_all_sound_off(guitarist, channel);
+}
+
+static void seat(void* guitarist, uint32_t channel, uint32_t number) {
+  guitarist_seat(guitarist, channel, number);
+}
+
+Performance guitarist_performance(Guitarist* guitarist) {
+  static const PerformanceKind kind = {note_on, note_off,      gesture,       press_key,
+                                       let_go,  all_notes_off, all_sound_off, seat};
+  return (Performance){&kind, guitarist};
 }

@@ -13,19 +13,12 @@ static const double MOST_STRUM_S = 1.0;
 static const double LOWEST_FRET = -48.0;
 
 GuitaristHand guitarist_chord_hand(Guitarist* guitarist, uint32_t string) {
-  return (GuitaristHand){guitarist->guitar, string, &guitarist->strings[string]};
-}
-
-bool guitarist_chord_is_pedalled(const Guitarist* guitarist, uint32_t channel) {
-  bool is_any = false;
-  for (uint32_t c = 0; c < GUITARIST_CHANNELS; ++c) {
-    is_any = is_any || guitarist->is_pedal_down[c];
-  }
-  return guitarist->how.has_channels ? guitarist->is_pedal_down[channel] : is_any;
+  return (GuitaristHand){&guitarist->seat, guitarist->channels, string,
+                         &guitarist->strings[string]};
 }
 
 static bool has_own_string(const Guitarist* guitarist, uint32_t channel) {
-  return guitarist->how.has_channels && channel < guitarist->n_strings;
+  return guitarist->how.has_channels && guitarist->channels[channel].seat < guitarist->n_strings;
 }
 
 double guitarist_chord_fret(const Guitarist* guitarist, uint32_t string, uint32_t key) {
@@ -45,7 +38,7 @@ bool guitarist_chord_is_hammered(Guitarist* guitarist, const GuitaristEvent* eve
   const double fret = guitarist_chord_fret(guitarist, string, event->key);
   return guitarist->n_notes == 1 && lround(fret) >= 0 && lround(fret) <= FRETBOARD_FRETS &&
          fabs(fret - on->note.fret) <= LEGATO_FRETS &&
-         (double)(guitarist->now - on->onset) > LEGATO_S * guitarist->rate_hz;
+         (double)(guitarist->now - on->onset) > LEGATO_S * guitarist->seat.rate_hz;
 }
 
 /* The string whose key went down last of those that are down. */
@@ -64,11 +57,10 @@ static uint32_t last_held(const Guitarist* guitarist) {
 /* The string that a note has to be played on, or GUITARIST_NO_STRING. */
 static uint32_t only_string(Guitarist* guitarist, GuitaristEvent* event) {
   if (has_own_string(guitarist, event->channel)) {
-    return event->channel;
+    return guitarist->channels[event->channel].seat;
   }
-  const uint32_t channel = guitarist->how.has_channels ? event->channel : GUITARIST_ANY_CHANNEL;
   for (uint32_t s = 0; s < guitarist->n_strings; ++s) {
-    if (guitarist_string_has(&guitarist->strings[s], channel, event->key)) {
+    if (guitarist_string_has(&guitarist->strings[s], event->channel, event->key)) {
       return s;
     }
   }
@@ -83,26 +75,27 @@ static bool is_being_let_go(const Guitarist* guitarist, const GuitaristString* s
   bool is_let_go = false;
   for (uint32_t i = 0; i < guitarist->n_events; ++i) {
     const GuitaristEvent* const event = &guitarist->events[i];
-    const bool is_last = string->n_waiting == 0 || event->key == GUITARIST_ANY_KEY;
+    const bool is_alone = string->note.holders == UINT32_C(1) << event->channel;
+    const bool is_last = is_alone && (string->n_waiting == 0 || event->key == GUITARIST_ANY_KEY);
     is_let_go = is_let_go || (event->verb == GUITARIST_NOTE_OFF && is_last &&
                               guitarist_string_has(string, event->channel, event->key));
   }
   return is_let_go;
 }
 
-static FretboardUse use_of(const Guitarist* guitarist, uint32_t string) {
-  const GuitaristString* const on = &guitarist->strings[string];
+static FretboardUse use_of(Guitarist* guitarist, uint32_t string) {
+  const GuitaristHand hand = guitarist_chord_hand(guitarist, string);
+  const GuitaristString* const on = hand.string;
   if (on->hold == GUITARIST_KEY && !is_being_let_go(guitarist, on)) {
     return FRETBOARD_TAKEN;
   }
-  const bool is_kept =
-      on->hold == GUITARIST_PEDAL ||
-      (on->hold == GUITARIST_KEY && guitarist_chord_is_pedalled(guitarist, on->note.channel));
-  const bool is_ringing = is_kept && guitar_is_awake(guitarist->guitar, string);
+  const bool is_kept = on->hold == GUITARIST_FOOT ||
+                       (on->hold == GUITARIST_KEY && guitarist_string_is_pedalled(hand));
+  const bool is_ringing = is_kept && hand.seat->is_awake(hand.seat->guitar, string);
   return is_ringing || on->is_due ? FRETBOARD_RINGING : FRETBOARD_FREE;
 }
 
-static Fretboard look(const Guitarist* guitarist) {
+static Fretboard look(Guitarist* guitarist) {
   Fretboard board = {.n_strings = guitarist->n_strings};
   for (uint32_t s = 0; s < guitarist->n_strings; ++s) {
     const GuitaristString* const string = &guitarist->strings[s];
@@ -185,7 +178,7 @@ is_before(const Guitarist* guitarist, const GuitaristEvent* a, const GuitaristEv
 }
 
 double guitarist_chord_strum_frames(const Guitarist* guitarist) {
-  return fmin(fmax(guitarist->how.strum_s, 0.0), MOST_STRUM_S) * guitarist->rate_hz;
+  return fmin(fmax(guitarist->how.strum_s, 0.0), MOST_STRUM_S) * guitarist->seat.rate_hz;
 }
 
 /* Whether strokes go on with the strum that is under way. */
@@ -193,7 +186,7 @@ static bool is_joining(const Guitarist* guitarist, uint32_t n_strokes) {
   const GuitaristStrum* const strum = &guitarist->strum;
   const double elapsed = (double)(guitarist->now - strum->start);
   return strum->n_strokes + n_strokes <= guitarist->n_strings &&
-         elapsed <= JOIN_S * guitarist->rate_hz &&
+         elapsed <= JOIN_S * guitarist->seat.rate_hz &&
          elapsed < (strum->n_strokes - 1.0) * guitarist_chord_strum_frames(guitarist);
 }
 

@@ -12,9 +12,6 @@
 /** The string of the guitarist and of the guitar. */
 GuitaristHand guitarist_chord_hand(Guitarist* guitarist, uint32_t string);
 
-/** Whether a pedal holds the notes of a channel. */
-bool guitarist_chord_is_pedalled(const Guitarist* guitarist, uint32_t channel);
-
 /** The fret of a key on a string; one that is too low for any fret gets the lowest. */
 double guitarist_chord_fret(const Guitarist* guitarist, uint32_t string, uint32_t key);
 

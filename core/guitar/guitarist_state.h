@@ -18,15 +18,16 @@ enum {
 typedef enum {
   GUITARIST_NOTE_ON,
   GUITARIST_NOTE_OFF, /**< Of one key or of all */
-  GUITARIST_PEDAL_MOVE
+  GUITARIST_PEDAL,    /**< `value`: it is down */
+  GUITARIST_SOSTENUTO /**< The same */
 } GuitaristVerb;
 
-/** What MIDI said. */
+/** What a player did. */
 typedef struct {
   GuitaristVerb verb;
   uint32_t channel;
   uint32_t key;
-  uint32_t value;  /**< Velocity, or whether the pedal is down */
+  uint32_t value;  /**< Velocity, or whether a pedal is down */
   uint32_t string; /**< That a note on is played on, once that is decided */
   uint32_t stroke; /**< How many strings of its strum are plucked before it */
 } GuitaristEvent;
@@ -38,15 +39,15 @@ typedef struct {
 } GuitaristStrum;
 
 struct Guitarist {
-  Guitar* guitar;
-  double rate_hz;
+  GuitarSeat seat;
   GuitaristHow how;
   double tuning_hz;
+  double hardness;             /**< The patch's */
   double open[GUITAR_STRINGS]; /**< MIDI notes, with the capo */
   uint32_t n_strings;
   int32_t position; /**< Fret of the first finger, from the capo */
   GuitaristString strings[GUITAR_STRINGS];
-  bool is_pedal_down[GUITARIST_CHANNELS];
+  GuitaristChannel channels[PERFORMANCE_CHANNELS];
   GuitaristStrum strum;
   uint64_t now;      /**< In frames */
   uint64_t n_played; /**< Notes so far */

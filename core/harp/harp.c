@@ -20,13 +20,8 @@ static const double BRIGHTNESS_HARDNESS = 0.4;
 static const double SOFT_HARDNESS = -0.2;
 static const double SOFT_GAIN = 0.6;
 
-/* How far what holds its damper lifts it. */
-static double lift_of(const Harp* harp, const HarpString* string) {
-  return string->holders || string->is_caught ? 1.0 : harp->channels[string->channel].lift;
-}
-
 static void retune(Harp* harp, HarpString* string, uint32_t n_glide) {
-  string->lift = lift_of(harp, string);
+  string->lift = harp_channels_lift(harp, string);
   harp_string_retune(string, n_glide);
 }
 
@@ -175,7 +170,8 @@ static void raise_key(Harp* harp, HarpString* string, uint32_t channel) {
   }
   string->leaned_on = 0.0;
   harp_string_lift(string);
-  if (was_leaned_on || string->lift != lift_of(harp, string) || tie_is_on(&string->voice.tie)) {
+  if (was_leaned_on || string->lift != harp_channels_lift(harp, string) ||
+      tie_is_on(&string->voice.tie)) {
     retune(harp, string, harp->n_gesture);
   }
 }
@@ -199,7 +195,7 @@ void harp_let_go(Harp* harp, uint32_t channel) {
 static void move_dampers(Harp* harp, uint32_t channel) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (string->channel == channel && string->lift != lift_of(harp, string)) {
+    if (string->channel == channel && string->lift != harp_channels_lift(harp, string)) {
       retune(harp, string, harp->n_gesture);
     }
   }

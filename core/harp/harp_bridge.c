@@ -2,6 +2,7 @@
 
 #include "core/base/maths.h"
 #include "core/harp/harp.h"
+#include "core/harp/harp_channels.h"
 #include "core/string/chain_numbers.h"
 
 #include <math.h>
@@ -228,8 +229,20 @@ static void keep(Harp* harp) {
   }
 }
 
-static bool is_waiting(const HarpString* string) {
-  return !string->voice.is_awake && string->lift >= LIFTED && !isnan(string->semitones);
+static bool is_waiting(const Harp* harp, const HarpString* string) {
+  return !string->voice.is_awake && harp_channels_lift(harp, string) >= LIFTED &&
+         !isnan(string->semitones);
+}
+
+/* It is then the string of the channel that lifts its damper. */
+static void wake_string(Harp* harp, HarpString* string) {
+  if (!string->holders && !string->is_caught) {
+    string->channel = harp_channels_pedal(harp);
+    string->touch = harp->channels[string->channel].touch;
+    string->is_let_go = false;
+  }
+  string->lift = harp_channels_lift(harp, string);
+  harp_string_wake(string, harp->n_gesture);
 }
 
 static void wake(Harp* harp) {
@@ -242,8 +255,8 @@ static void wake(Harp* harp) {
       return;
     }
     bridge->next_key = (bridge->next_key + 1) % N_KEYS;
-    if (is_waiting(string)) {
-      harp_string_wake(string, harp->n_gesture);
+    if (is_waiting(harp, string)) {
+      wake_string(harp, string);
       ++n_woken;
     }
   }

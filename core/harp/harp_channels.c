@@ -53,6 +53,22 @@ HarpString* harp_channels_take(Harp* harp, uint32_t channel, uint32_t key) {
   return spare ? spare : own;
 }
 
+uint32_t harp_channels_pedal(const Harp* harp) {
+  uint32_t most = 0;
+  for (uint32_t channel = 1; channel < HARP_CHANNELS; ++channel) {
+    most = harp->channels[channel].lift > harp->channels[most].lift ? channel : most;
+  }
+  return most;
+}
+
+double harp_channels_lift(const Harp* harp, const HarpString* string) {
+  if (string->holders || string->is_caught) {
+    return 1.0;
+  }
+  const bool is_awake = string->voice.is_awake;
+  return harp->channels[is_awake ? string->channel : harp_channels_pedal(harp)].lift;
+}
+
 bool harp_channels_follows(const HarpString* string, uint32_t channel) {
   return string->channel == channel && !string->is_let_go;
 }

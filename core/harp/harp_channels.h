@@ -20,6 +20,13 @@ HarpString* harp_channels_held(Harp* harp, uint32_t channel, uint32_t key);
 /** The string that a channel is to play when it takes a key. */
 HarpString* harp_channels_take(Harp* harp, uint32_t channel, uint32_t key);
 
+/** The channel whose pedal lifts dampers the most. */
+uint32_t harp_channels_pedal(const Harp* harp);
+
+/** How far a damper is lifted: by the key, or by the pedals of the channel that played the string
+ * last; from one that sleeps by any channel's. */
+double harp_channels_lift(const Harp* harp, const HarpString* string);
+
 /** Whether a string does what a channel does. */
 bool harp_channels_follows(const HarpString* string, uint32_t channel);
 

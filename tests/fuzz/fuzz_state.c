@@ -1,5 +1,5 @@
-/* Whatever a state holds under the names of an instrument's files and of what lies over its ports:
- * it is restored or not, the instrument plays on, and what it then saves is whole. */
+/* Whatever a state holds under the names of an instrument's files: it is restored or not, the
+ * instrument plays on, and what it then saves is whole. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "tests/fuzz/fuzz.h"
@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The tuning's two files, and the overlay. */
-enum { N_FILES = 2, N_KEYS = 3, LONGEST = 5000 };
+enum { N_FILES = 2, LONGEST = 5000 };
 
 typedef struct {
   uint8_t* bytes; /* NULL: there is nothing */
@@ -18,16 +17,16 @@ typedef struct {
 } Value;
 
 typedef struct {
-  LV2_URID keys[N_KEYS];
-  Value values[N_KEYS];
+  LV2_URID keys[N_FILES];
+  Value values[N_FILES];
   uint32_t mapping; /* What the host makes of a path */
   const char* file;
-  bool is_saved[N_KEYS];
+  bool is_saved[N_FILES];
 } State;
 
 static int index_of(const State* state, uint32_t key) {
   int i = 0;
-  while (i < N_KEYS && state->keys[i] != key) {
+  while (i < N_FILES && state->keys[i] != key) {
     ++i;
   }
   return i;
@@ -37,7 +36,7 @@ static const void*
 retrieve(LV2_State_Handle handle, uint32_t key, size_t* n_bytes, uint32_t* type, uint32_t* flags) {
   const State* const state = handle;
   const int i = index_of(state, key);
-  FUZZ_CLAIM(i < N_KEYS);
+  FUZZ_CLAIM(i < N_FILES);
   *n_bytes = state->values[i].n_bytes;
   *type = state->values[i].type;
   *flags = LV2_STATE_IS_POD;
@@ -52,8 +51,8 @@ static LV2_State_Status store(LV2_State_Handle handle,
                               uint32_t flags) {
   State* const state = handle;
   const int i = index_of(state, key);
-  const bool is_path = i < N_FILES && n_bytes > 1;
-  FUZZ_CLAIM(i < N_KEYS && !state->is_saved[i]);
+  const bool is_path = n_bytes > 1;
+  FUZZ_CLAIM(i < N_FILES && !state->is_saved[i]);
   FUZZ_CLAIM(n_bytes > 0 && strnlen(value, n_bytes) == n_bytes - 1);
   FUZZ_CLAIM(type == plug_urid(is_path ? LV2_ATOM__Path : LV2_ATOM__String));
   FUZZ_CLAIM(flags & LV2_STATE_IS_POD);
@@ -95,13 +94,11 @@ static Value take_value(FuzzFeed* feed) {
   return value;
 }
 
-static State take_state(FuzzFeed* feed, const PlugKind* kind) {
-  const bool is_strings = kind == &plug_strings;
+static State take_state(FuzzFeed* feed) {
   State state = {
-      .keys = {plug_urid("urn:hooke:strings#scale"), plug_urid("urn:hooke:strings#mapping"),
-               plug_urid(is_strings ? "urn:hooke:strings#overlay" : "urn:hooke:guitar#overlay")},
+      .keys = {plug_urid("urn:hooke:strings#scale"), plug_urid("urn:hooke:strings#mapping")},
       .mapping = fuzz_byte(feed) % 5};
-  for (int i = 0; i < N_KEYS; ++i) {
+  for (int i = 0; i < N_FILES; ++i) {
     state.values[i] = take_value(feed);
   }
   state.file = fuzz_file(feed->at, feed->n_left);
@@ -128,13 +125,12 @@ static void restore_and_save(Plug* plug, State* state) {
 void fuzz_one(const uint8_t* bytes, size_t n_bytes) {
   FuzzFeed feed = {bytes, n_bytes};
   const uint32_t head = fuzz_byte(&feed);
-  const PlugKind* const kind = head % 4 == 0 ? &plug_guitar : &plug_strings;
-  State state = take_state(&feed, kind);
-  Plug* const plug = plug_in(kind, 48000.0);
+  State state = take_state(&feed);
+  Plug* const plug = plug_in(&plug_strings, 48000.0);
   plug->n_room = head < 128 ? PLUG_MAX_NOTIFY : 0;
   restore_and_save(plug, &state);
-  FUZZ_CLAIM(kind == &plug_guitar || (state.is_saved[0] && state.is_saved[1]));
-  for (int i = 0; i < N_KEYS; ++i) {
+  FUZZ_CLAIM(state.is_saved[0] && state.is_saved[1]);
+  for (int i = 0; i < N_FILES; ++i) {
     free(state.values[i].bytes);
   }
 }

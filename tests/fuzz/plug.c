@@ -2,7 +2,6 @@
 
 #include "plugin/bundle.h"
 #include "plugin/guitar_ports.h"
-#include "plugin/port_request.h"
 #include "plugin/strings_ports.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -103,23 +102,6 @@ schedule(LV2_Worker_Schedule_Handle handle, uint32_t n_bytes, const void* data) 
   return LV2_WORKER_SUCCESS;
 }
 
-/* What is asked for is a control input of ours, and in its range; the host may grant it. */
-static PortRequestStatus request_change(void* handle, uint32_t port, float value) {
-  Plug* const plug = handle;
-  const PlugKind* const kind = plug->kind;
-  uint32_t i = 0;
-  while (i < kind->n_controls && kind->controls[i].index != port) {
-    ++i;
-  }
-  FUZZ_CLAIM(i < kind->n_controls);
-  FUZZ_CLAIM(value >= kind->controls[i].minimum && value <= kind->controls[i].maximum);
-  if (plug->is_worker_busy) {
-    return PORT_REQUEST_UNKNOWN;
-  }
-  plug->values[port] = value;
-  return PORT_REQUEST_SUCCESS;
-}
-
 static const void* extension(const PlugKind* kind, const char* uri) {
   return kind->descriptor->extension_data ? kind->descriptor->extension_data(uri) : NULL;
 }
@@ -128,11 +110,9 @@ static void instantiate(Plug* plug) {
   LV2_URID_Map map = {NULL, map_uri};
   static LV2_Log_Log log = {NULL, print, print_line};
   plug->schedule = (LV2_Worker_Schedule){plug, schedule};
-  plug->request = (PortRequest){plug, request_change};
   const LV2_Feature work = {LV2_WORKER__schedule, &plug->schedule};
-  const LV2_Feature features[] = {
-      {LV2_URID__map, &map}, {LV2_LOG__log, &log}, work, {PORT_REQUEST_URI, &plug->request}};
-  const LV2_Feature* const list[] = {&features[0], &features[1], &features[2], &features[3], NULL};
+  const LV2_Feature features[] = {{LV2_URID__map, &map}, {LV2_LOG__log, &log}, work};
+  const LV2_Feature* const list[] = {&features[0], &features[1], &features[2], NULL};
   const LV2_Descriptor* const descriptor = plug->kind->descriptor;
   plug->handle = descriptor->instantiate(descriptor, plug->rate_hz, "", list);
   FUZZ_CLAIM(plug->handle);
@@ -143,7 +123,7 @@ static void instantiate(Plug* plug) {
   }
 }
 
-/* To have no file is a state as well, and what a state does not say takes the overlay away. */
+/* To have no file is a state as well. */
 static const void* retrieve_nothing(
     LV2_State_Handle handle, uint32_t key, size_t* n_bytes, uint32_t* type, uint32_t* flags) {
   (void)handle;

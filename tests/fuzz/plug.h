@@ -7,7 +7,6 @@
 #ifndef HOOKE_TESTS_FUZZ_PLUG_H
 #define HOOKE_TESTS_FUZZ_PLUG_H
 
-#include "plugin/port_request.h"
 #include "plugin/ports.h"
 
 #include <lv2/atom/atom.h>
@@ -37,7 +36,6 @@ typedef struct {
   const LV2_State_Interface* state;   /**< NULL: it has none */
   const LV2_Worker_Interface* worker; /**< NULL: it has none */
   LV2_Worker_Schedule schedule;
-  PortRequest request;
   bool is_worker_busy; /**< Whether work, and moving a port, is refused */
   float values[PORTS_MAX];
   uint32_t n_room; /**< Of the notify port, behind its atom header [bytes] */

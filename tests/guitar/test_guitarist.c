@@ -1,19 +1,19 @@
 #include "tests/support/guitarist_player.h"
 
 /* One note and its end; where it was played. */
-static FakeCall note(Player player, uint32_t key) {
+static RecordedAct note(Player player, uint32_t key) {
   const uint32_t n_plucks = player_count(player.guitar, GUITAR_PLUCK);
   guitarist_note_on(player.guitarist, 0, key, 90);
   player_run(player, PLAYER_REST);
   guitarist_note_off(player.guitarist, 0, key);
   player_run(player, PLAYER_REST);
   assert_int_equal(player_count(player.guitar, GUITAR_PLUCK), n_plucks + 1);
-  const FakeCall fret = *player_last(player.guitar, GUITAR_FRET);
+  const RecordedAct fret = *player_last(player.guitar, GUITAR_FRET);
   assert_int_equal(fret.string, player_last(player.guitar, GUITAR_PLUCK)->string);
   return fret;
 }
 
-static double sounding(const GuitarPatch* patch, FakeCall fret) {
+static double sounding(const GuitarPatch* patch, RecordedAct fret) {
   return patch->open[fret.string] + patch->capo + fret.value[0];
 }
 
@@ -25,8 +25,8 @@ static void every_key_sounds_as_it_is_called(void** state) {
   patch.open[2] = 54.63;
   patch.open[5] = 38.0;
   const Player player = player_with(&patch);
-  for (uint32_t key = 0; key < GUITARIST_KEYS; ++key) {
-    const FakeCall fret = note(player, key);
+  for (uint32_t key = 0; key < PERFORMANCE_KEYS; ++key) {
+    const RecordedAct fret = note(player, key);
     assert_true(fabs(sounding(&patch, fret) - key) < 1e-9);
     assert_true(key < 40 || key > 90 || (fret.value[0] > -0.5 && fret.value[0] < 24.5));
   }
@@ -68,7 +68,7 @@ static void a_low_scale_stays_in_first_position(void** state) {
   const Player player = player_with(&PLAYER_USUAL);
   uint32_t n_open = 0;
   for (uint32_t i = 0; i < 2 * NOTES - 1; ++i) {
-    const FakeCall fret = note(player, scale[i < NOTES ? i : 2 * NOTES - 2 - i]);
+    const RecordedAct fret = note(player, scale[i < NOTES ? i : 2 * NOTES - 2 - i]);
     assert_true(fret.value[0] <= (fret.string == 0 ? 5.0 : 4.0));
     n_open += fret.value[0] < 0.5;
   }
@@ -142,11 +142,11 @@ static void a_repeated_key_stays_on_its_string(void** state) {
     player_run(player, PLAYER_REST);
     const uint32_t string = player_last(player.guitar, GUITAR_PLUCK)->string;
     const uint32_t n_plucks = player_count(player.guitar, GUITAR_PLUCK);
-    guitarist_note_on(player.guitarist, 1, key, 90);
+    guitarist_note_on(player.guitarist, 0, key, 90);
     player_run(player, PLAYER_REST);
     assert_int_equal(player_count(player.guitar, GUITAR_PLUCK), n_plucks + 1);
     assert_int_equal(player_last(player.guitar, GUITAR_PLUCK)->string, string);
-    guitarist_note_off(player.guitarist, 1, key);
+    guitarist_note_off(player.guitarist, 0, key);
     player_run(player, PLAYER_REST);
     assert_int_equal(player_last(player.guitar, GUITAR_DAMP)->string, string);
   }
@@ -157,11 +157,11 @@ static void a_repeated_key_stays_on_its_string(void** state) {
 static void a_ringing_string_is_spared(void** state) {
   (void)state;
   const Player player = player_with(&PLAYER_USUAL);
-  guitarist_pedal(player.guitarist, 0, true);
+  guitarist_gesture(player.guitarist, 0, GESTURE_DAMPER, 1.0);
   assert_int_equal(note(player, 60).string, 1);
   assert_int_equal(note(player, 59).string, 2);
   assert_int_equal(note(player, 60).string, 1);
-  guitarist_pedal(player.guitarist, 0, false);
+  guitarist_gesture(player.guitarist, 0, GESTURE_DAMPER, 0.0);
   assert_int_equal(note(player, 59).string, 1);
   player_free(player);
 }
@@ -187,7 +187,7 @@ static void what_is_spared_rings_or_will(void** state) {
   for (uint32_t n = 0; n < 3; ++n) {
     const Player player = player_with(&PLAYER_USUAL);
     Guitarist* const guitarist = player.guitarist;
-    guitarist_pedal(guitarist, 0, n < 2);
+    guitarist_gesture(guitarist, 0, GESTURE_DAMPER, n < 2);
     guitarist_set_how(guitarist, (GuitaristHow){.strum_s = n == 2 ? 0.1 : 0.0});
     guitarist_note_on(guitarist, 0, 40, 90);
     guitarist_note_on(guitarist, 0, 45, 90);

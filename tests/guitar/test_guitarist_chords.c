@@ -5,11 +5,11 @@
 
 /* What was plucked since `from`, as a chord's name in a book: low string first, x for none, and -
    for one that was plucked twice. */
-static const char* shape_since(const Guitar* guitar, uint32_t from, char* shape) {
+static const char* shape_since(const GuitarRecord* guitar, uint32_t from, char* shape) {
   double fret[GUITAR_STRINGS] = {0};
   strcpy(shape, "xxxxxx");
   for (uint32_t i = from; i < guitar->n_calls; ++i) {
-    const FakeCall* const call = &guitar->calls[i];
+    const RecordedAct* const call = &guitar->calls[i];
     if (call->verb == GUITAR_FRET) {
       fret[call->string] = call->value[0];
     } else if (call->verb == GUITAR_PLUCK) {

@@ -79,7 +79,7 @@ static void a_silent_string_is_plucked(void** state) {
   on(player, 1, 62, SOFT);
   player_run(player, 4800);
   assert_done(player, &from, "f1 p1 f1 p1");
-  guitarist_pedal(player.guitarist, 1, true);
+  guitarist_gesture(player.guitarist, 1, GESTURE_DAMPER, 1.0);
   off(player, 1, 62);
   on(player, 1, 64, SOFT);
   player_run(player, 4800);

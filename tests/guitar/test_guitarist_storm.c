@@ -61,19 +61,19 @@ static void act(Player player, const Event* event) {
     guitarist_note_off(guitarist, event->channel, event->key);
     break;
   case PEDAL:
-    guitarist_pedal(guitarist, event->channel, event->value > 80);
+    guitarist_gesture(guitarist, event->channel, GESTURE_DAMPER, event->value > 80);
     break;
   case BEND:
-    guitarist_bend(guitarist, event->channel, event->value / 64.0 - 1.0);
+    guitarist_gesture(guitarist, event->channel, GESTURE_BEND, event->value / 64.0 - 1.0);
     break;
   case VIBRATO:
-    guitarist_vibrato(guitarist, event->channel, event->value / 127.0);
+    guitarist_gesture(guitarist, event->channel, GESTURE_VIBRATO, event->value / 127.0);
     break;
   case NOTES_OFF:
     guitarist_all_notes_off(guitarist, event->channel);
     break;
   case SOUND_OFF:
-    guitarist_all_sound_off(guitarist);
+    guitarist_all_sound_off(guitarist, event->channel);
     break;
   case HOW:
     guitarist_set_how(guitarist, how_of(event->value));
@@ -116,7 +116,7 @@ static void the_same_is_done_in_any_blocks(void** state) {
       const Player again = play(events, how, blocks[b], &random);
       assert_int_equal(again.guitar->n_calls, once.guitar->n_calls);
       assert_memory_equal(again.guitar->calls, once.guitar->calls,
-                          once.guitar->n_calls * sizeof(FakeCall));
+                          once.guitar->n_calls * sizeof(RecordedAct));
       player_free(again);
     }
     player_free(once);
@@ -124,11 +124,11 @@ static void the_same_is_done_in_any_blocks(void** state) {
 }
 
 /* Whether a string sounds at the end and nothing will damp it. */
-static bool is_stuck(const Guitar* guitar, uint32_t string) {
+static bool is_stuck(const GuitarRecord* guitar, uint32_t string) {
   bool is_stuck = false;
   for (uint32_t i = 0; i < guitar->n_calls; ++i) {
-    const FakeCall* const call = &guitar->calls[i];
-    if (call->verb == FAKE_CHOKE || (call->string == string && call->verb == GUITAR_DAMP)) {
+    const RecordedAct* const call = &guitar->calls[i];
+    if (call->verb == GUITAR_CHOKE || (call->string == string && call->verb == GUITAR_DAMP)) {
       is_stuck = false;
     } else if (call->string == string &&
                (call->verb == GUITAR_PLUCK || call->verb == GUITAR_HAMMER)) {
@@ -146,14 +146,14 @@ static void a_storm_leaves_nothing_stuck(void** state) {
   for (uint32_t storm = 0; storm < 4 * STORMS; ++storm) {
     make_storm(&random, events, KEYS);
     const Player player = play(events, how_of(storm), 1000, &random);
-    for (uint32_t channel = 0; channel < GUITARIST_CHANNELS; ++channel) {
+    for (uint32_t channel = 0; channel < PERFORMANCE_CHANNELS; ++channel) {
       if (storm % 2 > 0) {
         guitarist_all_notes_off(player.guitarist, channel);
       }
-      for (uint32_t key = 0; key < GUITARIST_KEYS && storm % 2 == 0; ++key) {
+      for (uint32_t key = 0; key < PERFORMANCE_KEYS && storm % 2 == 0; ++key) {
         guitarist_note_off(player.guitarist, channel, key);
       }
-      guitarist_pedal(player.guitarist, channel, false);
+      guitarist_gesture(player.guitarist, channel, GESTURE_DAMPER, 0.0);
     }
     player_run(player, 2 * PLAYER_RATE_HZ);
     for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {

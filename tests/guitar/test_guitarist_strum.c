@@ -43,7 +43,7 @@ static void a_strum_goes_down_at_its_frames(void** state) {
     run_in_blocks(player, 5000, blocks[b]);
     assert_int_equal(player_count(player.guitar, GUITAR_PLUCK), NOTES);
     for (uint32_t n = 0; n < NOTES; ++n) {
-      const FakeCall* const pluck = player_nth(player.guitar, GUITAR_PLUCK, n);
+      const RecordedAct* const pluck = player_nth(player.guitar, GUITAR_PLUCK, n);
       assert_int_equal(pluck->string, 4 - n);
       assert_int_equal(pluck->frame, FIRST + (uint64_t)round(n * STRUM_S * PLAYER_RATE_HZ));
       assert_int_equal(player_nth(player.guitar, GUITAR_FRET, n)->frame, pluck->frame);
@@ -101,7 +101,7 @@ static void a_late_note_joins_the_strum(void** state) {
     player_run(player, 5000);
     uint64_t found = 0;
     for (uint32_t n = 0; n < NOTES + 1; ++n) {
-      const FakeCall* const pluck = player_nth(player.guitar, GUITAR_PLUCK, n);
+      const RecordedAct* const pluck = player_nth(player.guitar, GUITAR_PLUCK, n);
       found = pluck->string == 5 ? pluck->frame : found;
     }
     assert_int_equal(found, cases[c].plucked);
@@ -135,8 +135,8 @@ static void a_key_up_early_lets_its_string_be_plucked(void** state) {
   player_run(player, 5000);
   assert_int_equal(player_count(player.guitar, GUITAR_DAMP), NOTES);
   for (uint32_t n = 0; n < NOTES; ++n) {
-    const FakeCall* const pluck = player_nth(player.guitar, GUITAR_PLUCK, n);
-    const FakeCall* const damp = player_nth(player.guitar, GUITAR_DAMP, n);
+    const RecordedAct* const pluck = player_nth(player.guitar, GUITAR_PLUCK, n);
+    const RecordedAct* const damp = player_nth(player.guitar, GUITAR_DAMP, n);
     assert_int_equal(damp->string, pluck->string);
     assert_int_equal(damp->frame, n == 0 ? 100 : pluck->frame);
     assert_true(damp > pluck);
@@ -183,7 +183,7 @@ static void a_note_of_no_length_sounds(void** state) {
 static void the_pedal_waits_for_the_strum(void** state) {
   (void)state;
   const Player player = player_how((GuitaristHow){.strum_s = STRUM_S});
-  guitarist_pedal(player.guitarist, 0, true);
+  guitarist_gesture(player.guitarist, 0, GESTURE_DAMPER, 1.0);
   keys_down(player);
   player_run(player, 100);
   keys_up(player);
@@ -193,7 +193,7 @@ static void the_pedal_waits_for_the_strum(void** state) {
   keys_down(player);
   player_run(player, 10);
   keys_up(player);
-  guitarist_pedal(player.guitarist, 0, false);
+  guitarist_gesture(player.guitarist, 0, GESTURE_DAMPER, 0.0);
   assert_int_equal(n_damped(player), 1);
   player_run(player, 5000);
   assert_int_equal(player_count(player.guitar, GUITAR_PLUCK), 2 * NOTES);
@@ -204,14 +204,14 @@ static void the_pedal_waits_for_the_strum(void** state) {
 static void all_sound_off_leaves_nothing_due(void** state) {
   (void)state;
   const Player player = player_how((GuitaristHow){.strum_s = STRUM_S});
-  guitarist_pedal(player.guitarist, 0, true);
+  guitarist_gesture(player.guitarist, 0, GESTURE_DAMPER, 1.0);
   keys_down(player);
   player_run(player, 100);
   guitarist_note_on(player.guitarist, 0, 70, VELOCITY);
-  guitarist_all_sound_off(player.guitarist);
+  guitarist_all_sound_off(player.guitarist, 0);
   player_run(player, 5000);
   assert_int_equal(player_count(player.guitar, GUITAR_PLUCK), 1);
-  assert_int_equal(player_count(player.guitar, FAKE_CHOKE), 1);
+  assert_int_equal(player_count(player.guitar, GUITAR_CHOKE), GUITAR_STRINGS);
   /* The pedal is up. */
   guitarist_note_on(player.guitarist, 0, 60, VELOCITY);
   player_run(player, 5000);
@@ -239,7 +239,7 @@ static void no_note_joins_a_strum_that_was_stopped(void** state) {
   const Player player = player_how((GuitaristHow){.strum_s = STRUM_S});
   keys_down(player);
   player_run(player, 100);
-  guitarist_all_sound_off(player.guitarist);
+  guitarist_all_sound_off(player.guitarist, 0);
   guitarist_note_on(player.guitarist, 0, 43, VELOCITY);
   player_run(player, 100);
   assert_int_equal(player_count(player.guitar, GUITAR_PLUCK), 2);

@@ -200,6 +200,30 @@ static void pedal_opens_all_strings_and_closes_them(void** state) {
 }
 
 /* A key that is held opens its own string, long after it has died away. */
+/* Whichever channel it is whose pedal is down, and at its gain; another's pedal lets them be. */
+static void any_channels_pedal_opens_what_sleeps(void** state) {
+  static float first[RATE];
+  (void)state;
+  const HarpPatch patch = patch_with(0.5);
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; channel += 5) {
+    Harp* const harp = harps_new(RATE, &patch);
+    harp_pedal(harp, 3, 0.3);
+    harp_pedal(harp, channel, 1.0);
+    harp_set_gain(harp, channel, 0.5);
+    harp_bend(harp, channel, 0.25);
+    harp_note_on(harp, channel, 57, 110);
+    harp_run(harp, RATE / 2, left, right);
+    harp_pedal(harp, 3, 0.0);
+    harp_run(harp, RATE / 2, left + RATE / 2, right + RATE / 2);
+    assert_true(harp_report(harp).n_strings > 60);
+    if (channel > 0) {
+      assert_memory_equal(left, first, sizeof(first));
+    }
+    memcpy(first, left, sizeof(first));
+    harp_free(harp);
+  }
+}
+
 static void held_key_answers(void** state) {
   (void)state;
   HarpPatch patch = patch_with(0.5);
@@ -264,6 +288,7 @@ int main(void) {
       cmocka_unit_test(pedal_is_heard),
       cmocka_unit_test(damped_strings_sleep_on),
       cmocka_unit_test(pedal_opens_all_strings_and_closes_them),
+      cmocka_unit_test(any_channels_pedal_opens_what_sleeps),
       cmocka_unit_test(held_key_answers),
       cmocka_unit_test(string_whose_damper_falls_is_let_go),
       cmocka_unit_test(all_that_answers_dies_away),

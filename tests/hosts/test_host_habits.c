@@ -1,4 +1,4 @@
-/* Fourteen habits of hosts, of which each has broken some plugin: neither of ours may crash, reach
+/* Fifteen habits of hosts, of which each has broken some plugin: neither of ours may crash, reach
  * outside, or sound otherwise. */
 #include "tests/support/guitar_host.h"
 #include "tests/support/habits.h"
@@ -15,14 +15,14 @@
 
 #include <cmocka.h>
 
-enum { BLOCK = PROGRAMS_BLOCK };
+enum { BLOCK = PLUGINS_BLOCK };
 
-static const char* const uris[PROGRAMS_PLUGINS] = {STRINGS_URI, GUITAR_URI};
-static const char* const labels[PROGRAMS_PLUGINS] = {"Koto", "Banjo"};
+static const char* const uris[N_PLUGINS] = {STRINGS_URI, GUITAR_URI};
+static const char* const labels[N_PLUGINS] = {"Koto", "Banjo"};
 
 static void ports_may_be_null(void** state) {
   const int plugin = *(const int*)*state;
-  Host* const host = programs_open(plugin);
+  Host* const host = plugins_open(plugin);
   for (int k = 0; k < 2; ++k) {
     for (uint32_t port = 0; port < host_n_ports(host); ++port) {
       host_connect(host, port, NULL);
@@ -41,7 +41,7 @@ static void runs_may_be_empty_and_odd(void** state) {
   const int plugin = *(const int*)*state;
   Sound alone = habits_alone(plugin);
   Sound sound = sound_new(HABITS_FRAMES);
-  Host* const host = programs_open(plugin);
+  Host* const host = plugins_open(plugin);
   habits_play(host);
   for (size_t at = 0, k = 0; at < HABITS_FRAMES; ++k) {
     const size_t n = blocks[k % 10] < HABITS_FRAMES - at ? blocks[k % 10] : HABITS_FRAMES - at;
@@ -58,8 +58,8 @@ static void runs_may_be_empty_and_odd(void** state) {
 static void buffers_may_be_aligned_to_four_bytes(void** state) {
   const int plugin = *(const int*)*state;
   for (size_t shift = 1; shift < 4; ++shift) {
-    Host* const host = programs_open(plugin);
-    Host* const plain = programs_open(plugin);
+    Host* const host = plugins_open(plugin);
+    Host* const plain = plugins_open(plugin);
     Sound sound = sound_new(BLOCK);
     float* const memory = aligned_alloc(64, 2 * (BLOCK + 16) * sizeof(float));
     float* const right = memory + BLOCK + 16 + shift;
@@ -76,20 +76,19 @@ static void buffers_may_be_aligned_to_four_bytes(void** state) {
   }
 }
 
-/* There is no room for what a program change and a question would be answered with. */
+/* There is no room for what a question would be answered with. */
 static void the_notify_port_may_have_eight_bytes(void** state) {
   const int plugin = *(const int*)*state;
-  Host* const host = programs_open(plugin);
-  Host* const roomy = programs_open(plugin);
+  Host* const host = plugins_open(plugin);
+  Host* const roomy = plugins_open(plugin);
   assert_true(host_set_notify_capacity(host, 8));
   for (int k = 0; k < 2; ++k) {
     Host* const each = k ? host : roomy;
-    programs_select(each, 0, programs_place(each, labels[plugin]));
     scale_get(each, NULL);
     assert_true(host_run(each, BLOCK) && host_run(each, BLOCK));
     assert_true(host_notify(each)->atom.size <= (k ? 8u : 8192u));
   }
-  programs_assert_same(roomy, host);
+  plugins_assert_same(roomy, host);
   host_free(roomy);
   host_free(host);
 }
@@ -97,7 +96,7 @@ static void the_notify_port_may_have_eight_bytes(void** state) {
 static void left_and_right_may_be_one_buffer(void** state) {
   const int plugin = *(const int*)*state;
   Sound alone = habits_alone(plugin);
-  Host* const host = programs_open(plugin);
+  Host* const host = plugins_open(plugin);
   float both[BLOCK];
   host_connect(host, host_port_index(host, "out_left"), both);
   host_connect(host, host_port_index(host, "out_right"), both);
@@ -118,7 +117,7 @@ static void an_event_may_stand_at_the_end_of_its_block(void** state) {
   const uint8_t note_on[3] = {0x90, 64, 127};
   const int plugin = *(const int*)*state;
   for (int k = 0; k < 2; ++k) {
-    Host* const host = programs_open(plugin);
+    Host* const host = plugins_open(plugin);
     Sound sound = sound_new(2 * BLOCK);
     strings_set(host, "masses", 1.0);
     assert_true(host_midi_raw(host, BLOCK - k, note_on, 3));
@@ -135,11 +134,11 @@ static void events_may_be_out_of_order(void** state) {
   const int plugin = *(const int*)*state;
   Host* hosts[2];
   for (int k = 0; k < 2; ++k) {
-    hosts[k] = programs_open(plugin);
+    hosts[k] = plugins_open(plugin);
     assert_true(host_midi_raw(hosts[k], 100, notes[0], 3));
     assert_true(host_midi_raw(hosts[k], k ? 20 : 100, notes[1], 3));
   }
-  programs_assert_same(hosts[0], hosts[1]);
+  plugins_assert_same(hosts[0], hosts[1]);
   host_free(hosts[0]);
   host_free(hosts[1]);
 }
@@ -155,7 +154,7 @@ static void* deactivate_twice(void* data) {
 
 static void activation_may_come_in_mid_note_and_on_any_thread(void** state) {
   const int plugin = *(const int*)*state;
-  Host* const host = programs_open(plugin);
+  Host* const host = plugins_open(plugin);
   pthread_t thread;
   strings_controller(host, 0, STRINGS_PEDAL, 127);
   strings_bend(host, 0, -2.0);
@@ -166,19 +165,17 @@ static void activation_may_come_in_mid_note_and_on_any_thread(void** state) {
   habits_assert_alike(plugin, host);
 }
 
-static LilvState* state_of_program(Host* host, const char* label) {
-  programs_select(host, 0, programs_place(host, label));
-  assert_true(host_run(host, BLOCK));
+static LilvState* state_of_preset(Host* host, const char* label) {
+  assert_true(host_preset(host, label) && host_run(host, BLOCK));
   return host_save_state(host);
 }
 
 /* In the end it sounds as the last of them. */
 static void a_state_may_be_restored_while_it_runs(void** state) {
   const int plugin = *(const int*)*state;
-  Host* const host = programs_open(plugin);
-  Host* const plain = programs_open(plugin);
-  LilvState* states[2] = {state_of_program(host, "Default"),
-                          state_of_program(host, labels[plugin])};
+  Host* const host = plugins_open(plugin);
+  Host* const plain = plugins_open(plugin);
+  LilvState* states[2] = {state_of_preset(host, "Default"), state_of_preset(host, labels[plugin])};
   assert_false(lilv_state_equals(states[0], states[1]));
   habits_restore_while_it_runs(host, states);
   assert_true(host_preset(plain, labels[plugin]));
@@ -195,7 +192,7 @@ static const char* scale_statement(const char* path) {
 }
 
 static void there_may_be_no_worker(void** state) {
-  static const HostConfig bare = {.rate_hz = PROGRAMS_RATE, .max_block = BLOCK, .is_bare = true};
+  static const HostConfig bare = {.rate_hz = PLUGINS_RATE, .max_block = BLOCK, .is_bare = true};
   const int plugin = *(const int*)*state;
   Host* const host = host_new_with(uris[plugin], &bare, NULL, 0);
   assert_non_null(host);
@@ -211,7 +208,7 @@ static void there_may_be_no_worker(void** state) {
 /* Hooke Guitar has no work. */
 static void the_worker_may_work_inside_run(void** state) {
   const int plugin = *(const int*)*state;
-  Host* const host = programs_open(plugin);
+  Host* const host = plugins_open(plugin);
   host_worker(host)->mode = HOST_WORK_IN_RUN;
   if (plugin == 0) {
     scale_use(host, "19-equal.scl", NULL);
@@ -223,17 +220,16 @@ static void the_worker_may_work_inside_run(void** state) {
   }
 }
 
-/* They take away what a program has laid over the ports, and leave the files alone. */
+/* They leave the files alone. */
 static void presets_may_hold_ports_alone(void** state) {
   const int plugin = *(const int*)*state;
-  Host* const host = programs_open(plugin);
-  Host* const plain = programs_open(plugin);
-  programs_select(host, 0, programs_place(host, labels[plugin]));
-  assert_true(host_run(host, BLOCK));
+  Host* const host = plugins_open(plugin);
+  Host* const plain = plugins_open(plugin);
+  assert_true(host_preset(host, labels[plugin]) && host_run(host, BLOCK));
   assert_true(host_preset(host, "Default") && host_preset(plain, "Default"));
   habits_assert_same(plain, host);
   if (plugin == 0) {
-    Host* const tuned = programs_open(plugin);
+    Host* const tuned = plugins_open(plugin);
     scale_use(tuned, "19-equal.scl", NULL);
     assert_true(host_preset(tuned, "Default"));
     scale_assert_heard(tuned, "19-equal.scl", NULL);
@@ -241,8 +237,8 @@ static void presets_may_hold_ports_alone(void** state) {
   }
 }
 
-/* Of a plugin that is yet to come, and of any type; one that is known is obeyed beside them. */
-static void state_keys_may_be_unknown_and_newer(void** state) {
+/* Of a plugin that is yet to come or of one that has been, and of any type. */
+static void state_keys_may_be_unknown_newer_and_older(void** state) {
   const int plugin = *(const int*)*state;
   char statements[1024];
   (void)snprintf(statements, sizeof(statements),
@@ -250,9 +246,21 @@ static void state_keys_may_be_unknown_and_newer(void** state) {
                  "<%s#table> \"AAECAw==\"^^xsd:base64Binary ; <%s#overlay> \"6:c1200000:0;\"",
                  uris[plugin], uris[plugin], uris[plugin], uris[plugin]);
   Host* const host = habits_open_session(plugin, HOST_WORK_AFTER_RUN, statements);
-  Host* const plain = programs_open(plugin);
-  strings_set(plain, "level", -10.0);
-  habits_assert_same(plain, host);
+  habits_assert_alike(plugin, host);
+}
+
+/* Presets are theirs: a program and its bank change nothing, in mid-note neither. */
+static void programs_may_be_changed(void** state) {
+  const int plugin = *(const int*)*state;
+  Host* const host = plugins_open(plugin);
+  for (uint32_t channel = 0; channel < 16; ++channel) {
+    for (uint32_t frame = 0; frame < HABITS_FRAMES; frame += 900 + channel) {
+      strings_midi(host, frame, 0xB0 | channel, 0, channel);
+      strings_midi(host, frame, 0xB0 | channel, 32, 1);
+      strings_midi(host, frame, 0xC0 | channel, frame / 900, 0);
+    }
+  }
+  habits_assert_alike(plugin, host);
 }
 
 /* Of Hooke Guitar a session says nothing of files, or what it has no ear for. */
@@ -278,7 +286,7 @@ static void files_may_be_missing(void** state) {
   }
 
 int main(void) {
-  static int plugins[PROGRAMS_PLUGINS] = {0, 1};
+  static int plugins[N_PLUGINS] = {0, 1};
   const struct CMUnitTest tests[] = {
       OF_BOTH(ports_may_be_null),
       OF_BOTH(runs_may_be_empty_and_odd),
@@ -292,7 +300,8 @@ int main(void) {
       OF_BOTH(there_may_be_no_worker),
       OF_BOTH(the_worker_may_work_inside_run),
       OF_BOTH(presets_may_hold_ports_alone),
-      OF_BOTH(state_keys_may_be_unknown_and_newer),
+      OF_BOTH(state_keys_may_be_unknown_newer_and_older),
+      OF_BOTH(programs_may_be_changed),
       OF_BOTH(files_may_be_missing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

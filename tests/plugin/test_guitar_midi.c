@@ -1,6 +1,7 @@
 /* What MIDI says to the guitar is what its guitarist is told. */
 #include "tests/support/orders.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -40,7 +41,15 @@ static void messages_are_the_guitarists_orders(void** state) {
   check_order("less", (uint8_t[]){0xB3, 1, 20}, (Order){VIBRATO, 3, 0.5 * 20 / 127.0, 0}, true);
   check_order("palm", (uint8_t[]){0xB9, 67, 127}, (Order){PALM, 0, 1.0, 0}, true);
   check_order("lightly", (uint8_t[]){0xB0, 67, 30}, (Order){PALM, 0, 30 / 127.0, 0}, true);
-  check_order("all sound off", (uint8_t[]){0xB7, 120, 0}, (Order){SOUND_OFF, 0, 0, 0}, true);
+  check_order("volume", (uint8_t[]){0xB1, 7, 64}, (Order){GAIN, 1, pow(64 / 127.0, 2.0), 0}, true);
+  check_order("expression", (uint8_t[]){0xB3, 11, 0}, (Order){GAIN, 3, 0, 0}, true);
+  check_order("pressure", (uint8_t[]){0xD3, 90, 0}, (Order){PRESSURE, 3, 90 / 127.0, 0}, true);
+  check_order("of a key", (uint8_t[]){0xA1, 62, 90}, (Order){KEY_PRESSURE, 1, 62, 90 / 127.0},
+              true);
+  check_order("brightness", (uint8_t[]){0xB4, 74, 0}, (Order){BRIGHTNESS, 4, -1.0, 0}, true);
+  check_order("sostenuto", (uint8_t[]){0xB1, 66, 64}, (Order){SOSTENUTO, 1, 1.0, 0}, true);
+  check_order("all sound off", (uint8_t[]){0xB3, 120, 0}, (Order){SOUND_OFF, 3, 0, 0}, true);
+  check_order("another's", (uint8_t[]){0xB8, 120, 0}, (Order){SOUND_OFF, 8, 0, 0}, false);
   for (uint8_t cc = 123; cc <= 127; ++cc) {
     check_order("all notes off", (uint8_t[]){0xB3, cc, 0}, (Order){NOTES_OFF, 3, 0, 0}, true);
   }
@@ -115,7 +124,7 @@ static void what_is_malformed_or_unknown_is_ignored(void** state) {
       {{0xB0, 0xF8, 0}, 3},
       {{0xB0, 120, 0xFF}, 3},
       {{0xE0, 0xFF, 0}, 3},
-      {{0xA0, 62, 100}, 3},
+      {{0xA0, 61, 100}, 3},
       {{0xC0, 5, 0}, 3},
       {{0xD0, 100, 0}, 3},
       {{0xF2, 62, 0}, 3},
@@ -124,7 +133,7 @@ static void what_is_malformed_or_unknown_is_ignored(void** state) {
       {{0xF0, 0x7E, 0x7F, 9, 1, 0xF7}, 6},
       {{0xB0, 96, 0}, 3},
       {{0xB0, 97, 0}, 3},
-      {{0xB0, 11, 0}, 3},
+      {{0xB0, 2, 0}, 3},
       {{0xB0, 65, 127}, 3},
       {{0xB0, 122, 0}, 3},
       {{0xB0, CC_DATA_UPPER, 12}, 3},

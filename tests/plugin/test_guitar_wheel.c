@@ -33,9 +33,10 @@ static const BendRange bend_ranges[] = {
     {"semitones clear cents", {CHOSEN, {CC_DATA_LOWER, 50}, {CC_DATA_UPPER, 3}}, 1.5},
     {"chosen the other way round", {{CC_LOWER, 0}, {CC_UPPER, 0}, {CC_DATA_UPPER, 5}}, 2.5},
     {"the widest", {CHOSEN, {CC_DATA_UPPER, 24}}, 12.0},
-    {"too wide", {CHOSEN, {CC_DATA_UPPER, 25}}, 12.0},
-    {"far too wide", {CHOSEN, {CC_DATA_UPPER, 127}, {CC_DATA_LOWER, 127}}, 12.0},
-    {"too wide by cents", {CHOSEN, {CC_DATA_UPPER, 24}, {CC_DATA_LOWER, 1}}, 12.0},
+    {"wider than the guitar bends", {CHOSEN, {CC_DATA_UPPER, 25}}, 12.5},
+    {"and so far", {CHOSEN, {CC_DATA_UPPER, 127}, {CC_DATA_LOWER, 127}}, 24.0},
+    {"a cent more", {CHOSEN, {CC_DATA_UPPER, 24}, {CC_DATA_LOWER, 2}}, 12.01},
+    {"a cent less, in a step", {CHOSEN, {CC_DATA_UPPER, 24}, {CC_DECREMENT, 0}}, 11.995},
     {"none", {CHOSEN, {CC_DATA_UPPER, 0}}, 0.0},
     {"twice", {CHOSEN, {CC_DATA_UPPER, 12}, {CC_DATA_UPPER, 4}}, 2.0},
     {"null", {CHOSEN, {CC_UPPER, 127}, {CC_LOWER, 127}, {CC_DATA_UPPER, 12}}, 1.0},
@@ -43,7 +44,6 @@ static const BendRange bend_ranges[] = {
     {"no parameter", {{CC_DATA_UPPER, 12}, {CC_DATA_LOWER, 12}}, 1.0},
     {"half a parameter", {{CC_UPPER, 0}, {CC_DATA_UPPER, 12}}, 1.0},
     {"the other half", {{CC_LOWER, 0}, {CC_DATA_UPPER, 12}}, 1.0},
-    {"fine tuning", {{CC_UPPER, 0}, {CC_LOWER, 1}, {CC_DATA_UPPER, 12}}, 1.0},
     {"another bank", {{CC_UPPER, 1}, {CC_LOWER, 0}, {CC_DATA_UPPER, 12}}, 1.0},
     {"a maker's own", {CHOSEN, {CC_OWN_UPPER, 0}, {CC_OWN_LOWER, 0}, {CC_DATA_UPPER, 12}}, 1.0},
     {"half its own", {CHOSEN, {CC_OWN_LOWER, 5}, {CC_DATA_UPPER, 12}}, 1.0},
@@ -98,25 +98,55 @@ static void a_new_range_holds_at_once(void** state) {
   host_free(host);
 }
 
-/* Between the modes the wheels go back to their middle, and a new range leaves them there. */
-static void another_mode_centres_the_wheels(void** state) {
+/* As for Hooke Strings, and the sum goes as far as the guitar does. */
+static void tunings_bend_as_the_wheel_does(void** state) {
+  static const Step steps[] = {
+      {0, {0x91, 62, 100}, {ON, 1, 62, 100}},
+      {100, {0xE1, 0, 96}, {BEND, 1, 1.0, 0}},
+      {200, {0xB1, CC_UPPER, 0}, {END, 0, 0, 0}},
+      {200, {0xB1, CC_LOWER, 2}, {END, 0, 0, 0}},
+      {3000, {0xB1, CC_DATA_UPPER, 61}, {BEND, 1, -2.0, 0}},
+      {5000, {0xB1, CC_LOWER, 1}, {END, 0, 0, 0}},
+      {6000, {0xB1, CC_DATA_UPPER, 96}, {BEND, 1, -1.5, 0}},
+      {7000, {0xB1, CC_LOWER, 2}, {END, 0, 0, 0}},
+      {8000, {0xB1, CC_DATA_UPPER, 127}, {BEND, 1, 24.0, 0}},
+  };
+  (void)state;
+  Host* const host = orders_open();
+  assert_true(orders_are_told(host, steps, sizeof(steps) / sizeof(steps[0])));
+  host_free(host);
+}
+
+/* The lower half of a wheel counts, at the widest range a little of it. */
+static void a_wide_range_limits_the_result_and_never_the_scale(void** state) {
+  const double bend = 48.0 * 341 / 8192;
+  const Step steps[] = {
+      {0, {0xB6, CC_UPPER, 0}, {END, 0, 0, 0}},
+      {0, {0xB6, CC_LOWER, 0}, {END, 0, 0, 0}},
+      {0, {0xB6, CC_DATA_UPPER, 48}, {END, 0, 0, 0}},
+      {0, {0x96, 62, 100}, {ON, 6, 62, 100}},
+      {4000, {0xE6, 341 & 127, 64 + (341 >> 7)}, {BEND, 6, bend, 0}},
+  };
+  (void)state;
+  assert_within("from +1.998", fabs(bend - 1.998), 1e-4);
+  Host* const host = orders_open();
+  assert_true(orders_are_told(host, steps, sizeof(steps) / sizeof(steps[0])));
+  host_free(host);
+}
+
+/* A wheel is its channel's in either mode, and stays where it is between them. */
+static void another_mode_leaves_the_wheels(void** state) {
   (void)state;
   Host* const host = orders_open();
   Sound sounds[2] = {sound_new(ORDERS_FRAMES), sound_new(ORDERS_FRAMES)};
   for (int i = 0; i < 2; ++i) {
-    strings_set(host, "mode", 1.0);
+    strings_set(host, "mode", i == 0);
     strings_restart(host);
     strings_midi(host, 0, 0xE1, 0, 96);
-    strings_controller(host, 0, CC_UPPER, 0);
-    strings_controller(host, 0, CC_LOWER, 0);
+    strings_midi(host, 0, 0xE2, 0, 0);
     strings_run(host, &sounds[i], 0, ORDERS_BLOCK, ORDERS_BLOCK);
     strings_set(host, "mode", 0.0);
-    strings_note_on(host, 300, 62, 100);
-    if (i == 1) {
-      strings_midi(host, 310, 0xB1, CC_UPPER, 0);
-      strings_midi(host, 310, 0xB1, CC_LOWER, 0);
-      strings_midi(host, 310, 0xB1, CC_DATA_UPPER, 12);
-    }
+    strings_midi(host, 300, 0x91, 62, 100);
     strings_run(host, &sounds[i], ORDERS_BLOCK, ORDERS_FRAMES, ORDERS_BLOCK);
   }
   assert_true(measure_peak(sounds[0].left, ORDERS_FRAMES) > 0.01);
@@ -180,7 +210,9 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_wheels_range_is_registered_parameter_nought),
       cmocka_unit_test(a_new_range_holds_at_once),
-      cmocka_unit_test(another_mode_centres_the_wheels),
+      cmocka_unit_test(tunings_bend_as_the_wheel_does),
+      cmocka_unit_test(a_wide_range_limits_the_result_and_never_the_scale),
+      cmocka_unit_test(another_mode_leaves_the_wheels),
       cmocka_unit_test(activation_brings_the_usual_range_back),
       cmocka_unit_test(the_wheel_bends_by_an_octave_exactly),
   };

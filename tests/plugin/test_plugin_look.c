@@ -1,7 +1,7 @@
 /* What the Turtle tells a host that draws a panel by itself: names, groups and their order read
  * well.  Hosts that draw ports by their index cannot be helped, for that never changes. */
 #include "tests/support/panel.h"
-#include "tests/support/programs.h"
+#include "tests/support/plugins.h"
 
 #include <lv2/core/lv2.h>
 #include <lv2/port-groups/port-groups.h>
@@ -113,7 +113,7 @@ static int priority_of(Host* host, uint32_t port) {
 }
 
 static void check_order(int plugin, const Shown shown[], uint32_t n_shown) {
-  Host* const host = programs_open(plugin);
+  Host* const host = plugins_open(plugin);
   int before = 101;
   uint32_t n_inputs = 0;
   for (uint32_t k = 0; k < host_n_presets(host); ++k) {

@@ -1,6 +1,6 @@
 /* What the Turtle tells a host of values: units, words, scales and steps, and who may move them. */
 #include "tests/support/panel.h"
-#include "tests/support/programs.h"
+#include "tests/support/plugins.h"
 
 #include <lv2/core/lv2.h>
 #include <lv2/midi/midi.h>

@@ -38,10 +38,10 @@ static void every_preset_says_what_it_is_and_is_in_range(void** state) {
   presets_check_all(open_host, LEAST_PRESETS);
 }
 
-static void banks_and_programs_are_numbered_without_gaps(void** state) {
+static void each_preset_is_in_a_bank(void** state) {
   (void)state;
   Host* const host = open_host();
-  presets_check_places(host);
+  presets_check_banks(host);
   host_free(host);
 }
 
@@ -239,7 +239,7 @@ static void a_saved_state_sounds_the_same(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_preset_says_what_it_is_and_is_in_range),
-      cmocka_unit_test(banks_and_programs_are_numbered_without_gaps),
+      cmocka_unit_test(each_preset_is_in_a_bank),
       cmocka_unit_test(label_and_uri_name_the_same_preset),
       cmocka_unit_test(every_preset_sounds_and_is_in_tune),
       cmocka_unit_test(presets_are_about_as_loud),

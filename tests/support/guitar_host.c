@@ -77,7 +77,7 @@ GuitaristHow guitar_how_of(const Host* host) {
 Duo duo_new(const Host* host, double rate_hz) {
   Duo duo = {.guitar = guitar_new(rate_hz)};
   assert_non_null(duo.guitar);
-  duo.guitarist = guitarist_new(duo.guitar);
+  duo.guitarist = guitarist_new(guitar_seat(duo.guitar));
   assert_non_null(duo.guitarist);
   const GuitarPatch patch = guitar_patch_of(host);
   guitarist_reset(duo.guitarist);

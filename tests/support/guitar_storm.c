@@ -67,7 +67,8 @@ static void set_values(Random* random, GuitarEvent* event) {
     value[0] = share_of(random);
     break;
   case GUITAR_LET_RING:
-  case GUITAR_N_VERBS:
+  case GUITAR_CHOKE:
+  case GUITAR_GAIN:
     break;
   }
 }

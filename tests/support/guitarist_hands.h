@@ -17,11 +17,11 @@ static inline void off(Player player, uint32_t channel, uint32_t key) {
 /* What was done since the n-th call, a letter each and the string: "f0 p0" is fretted and plucked.
  */
 static inline void assert_done(Player player, uint32_t* from, const char* expected) {
-  static const char letters[] = "pfhsbvdltmc";
+  static const char letters[] = "pfhsbvdltmcg";
   char done[1024] = "";
   size_t length = 0;
   for (uint32_t i = *from; i < player.guitar->n_calls; ++i) {
-    const FakeCall* const call = &player.guitar->calls[i];
+    const RecordedAct* const call = &player.guitar->calls[i];
     assert_true(length + 4 < sizeof done);
     done[length++] = letters[call->verb];
     done[length++] = (char)('0' + call->string);
@@ -38,7 +38,7 @@ static inline void assert_near(double found, double expected) {
 
 /* What a call says but for its time. */
 static inline void assert_last(Player player, uint32_t verb, uint32_t string, double a, double b) {
-  const FakeCall* const call = player_last(player.guitar, verb);
+  const RecordedAct* const call = player_last(player.guitar, verb);
   assert_int_equal(call->string, string);
   assert_near(call->value[0], a);
   assert_near(call->value[1], b);

@@ -3,12 +3,14 @@
 #define HOOKE_TESTS_SUPPORT_GUITARIST_PLAYER_H
 
 #include "core/guitar/guitarist.h"
-#include "tests/support/guitar_fake.h"
+#include "tests/support/guitar_record.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -26,13 +28,13 @@ static const GuitarPatch PLAYER_USUAL = {
 };
 
 typedef struct {
-  Guitar* guitar;
+  GuitarRecord* guitar;
   Guitarist* guitarist;
 } Player;
 
 static inline Player player_with(const GuitarPatch* patch) {
-  Guitar* const guitar = guitar_new(PLAYER_RATE_HZ);
-  const Player player = {guitar, guitarist_new(guitar)};
+  GuitarRecord* const guitar = guitar_record_new();
+  const Player player = {guitar, guitarist_new(guitar_record_seat(guitar, PLAYER_RATE_HZ))};
   assert_non_null(player.guitarist);
   guitarist_set_patch(player.guitarist, patch);
   return player;
@@ -40,7 +42,7 @@ static inline Player player_with(const GuitarPatch* patch) {
 
 static inline void player_free(Player player) {
   guitarist_free(player.guitarist);
-  guitar_free(player.guitar);
+  free(player.guitar);
 }
 
 static inline void player_run(Player player, uint32_t n_frames) {
@@ -53,7 +55,7 @@ static inline void player_run(Player player, uint32_t n_frames) {
   }
 }
 
-static inline uint32_t player_count(const Guitar* guitar, uint32_t verb) {
+static inline uint32_t player_count(const GuitarRecord* guitar, uint32_t verb) {
   uint32_t n = 0;
   for (uint32_t i = 0; i < guitar->n_calls; ++i) {
     n += guitar->calls[i].verb == verb;
@@ -62,8 +64,8 @@ static inline uint32_t player_count(const Guitar* guitar, uint32_t verb) {
 }
 
 /* The call of a verb that came last. */
-static inline const FakeCall* player_last(const Guitar* guitar, uint32_t verb) {
-  const FakeCall* last = NULL;
+static inline const RecordedAct* player_last(const GuitarRecord* guitar, uint32_t verb) {
+  const RecordedAct* last = NULL;
   for (uint32_t i = 0; i < guitar->n_calls; ++i) {
     last = guitar->calls[i].verb == verb ? &guitar->calls[i] : last;
   }
@@ -80,7 +82,7 @@ static inline Player player_how(GuitaristHow how) {
 }
 
 /* The n-th call of a verb. */
-static inline const FakeCall* player_nth(const Guitar* guitar, uint32_t verb, uint32_t n) {
+static inline const RecordedAct* player_nth(const GuitarRecord* guitar, uint32_t verb, uint32_t n) {
   for (uint32_t i = 0; i < guitar->n_calls; ++i) {
     if (guitar->calls[i].verb == verb && n-- == 0) {
       return &guitar->calls[i];

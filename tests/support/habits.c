@@ -17,7 +17,7 @@
 
 #include <cmocka.h>
 
-enum { BLOCK = PROGRAMS_BLOCK };
+enum { BLOCK = PLUGINS_BLOCK };
 
 void habits_play(Host* host) {
   strings_note_on(host, 3, 45, 100);
@@ -27,7 +27,7 @@ void habits_play(Host* host) {
 }
 
 Sound habits_alone(int plugin) {
-  Host* const host = programs_open(plugin);
+  Host* const host = plugins_open(plugin);
   Sound sound = sound_new(HABITS_FRAMES);
   habits_play(host);
   strings_run(host, &sound, 0, HABITS_FRAMES, BLOCK);
@@ -109,7 +109,7 @@ Host* habits_open_session(int plugin, HostWork mode, const char* statements) {
                  "  <http://lv2plug.in/ns/lv2core#appliesTo> <%s> ;\n"
                  "  state:state [ %s ] .\n",
                  plugin ? GUITAR_URI : STRINGS_URI, statements);
-  Host* const host = programs_open(plugin);
+  Host* const host = plugins_open(plugin);
   LilvState* const state = host_state_from_string(host, turtle);
   assert_non_null(state);
   host_worker(host)->mode = mode;
@@ -124,7 +124,7 @@ void habits_assert_same(Host* a, Host* b) {
   assert_true(host_run(a, BLOCK) && host_run(b, BLOCK));
   strings_restart(a);
   strings_restart(b);
-  programs_assert_same(a, b);
+  plugins_assert_same(a, b);
   host_free(a);
   host_free(b);
 }

@@ -3,9 +3,9 @@
 #ifndef HOOKE_TESTS_SUPPORT_HABITS_H
 #define HOOKE_TESTS_SUPPORT_HABITS_H
 
-#include "tests/support/programs.h"
+#include "tests/support/plugins.h"
 
-enum { HABITS_FRAMES = 40 * PROGRAMS_BLOCK };
+enum { HABITS_FRAMES = 40 * PLUGINS_BLOCK };
 
 /** Queue a short piece with notes and a bend. */
 void habits_play(Host* host);

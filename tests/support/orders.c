@@ -15,22 +15,37 @@ static void tell(const Duo* duo, Order order) {
     guitarist_note_off(duo->guitarist, channel, (uint32_t)order.a);
     break;
   case BEND:
-    guitarist_bend(duo->guitarist, channel, order.a);
+    guitarist_gesture(duo->guitarist, channel, GESTURE_BEND, order.a);
     break;
   case PEDAL:
-    guitarist_pedal(duo->guitarist, channel, order.a > 0.0);
+    guitarist_gesture(duo->guitarist, channel, GESTURE_DAMPER, order.a);
     break;
   case VIBRATO:
-    guitarist_vibrato(duo->guitarist, channel, order.a);
+    guitarist_gesture(duo->guitarist, channel, GESTURE_VIBRATO, order.a);
     break;
   case PALM:
     guitar_palm(duo->guitar, order.a);
+    break;
+  case GAIN:
+    guitarist_gesture(duo->guitarist, channel, GESTURE_GAIN, order.a);
+    break;
+  case PRESSURE:
+    guitarist_gesture(duo->guitarist, channel, GESTURE_PRESSURE, order.a);
+    break;
+  case KEY_PRESSURE:
+    guitarist_press_key(duo->guitarist, channel, (uint32_t)order.a, order.b);
+    break;
+  case BRIGHTNESS:
+    guitarist_gesture(duo->guitarist, channel, GESTURE_BRIGHTNESS, order.a);
+    break;
+  case SOSTENUTO:
+    guitarist_gesture(duo->guitarist, channel, GESTURE_SOSTENUTO, order.a);
     break;
   case NOTES_OFF:
     guitarist_all_notes_off(duo->guitarist, channel);
     break;
   case SOUND_OFF:
-    guitarist_all_sound_off(duo->guitarist);
+    guitarist_all_sound_off(duo->guitarist, channel);
     break;
   case END:
     break;

@@ -11,6 +11,7 @@ enum {
   CC_VIBRATO = 1,
   CC_DATA_UPPER = 6,
   CC_DATA_LOWER = 38,
+  CC_DECREMENT = 97,
   CC_PALM = 67,
   CC_OWN_LOWER = 98,
   CC_OWN_UPPER = 99,
@@ -19,7 +20,22 @@ enum {
 };
 
 /** What a guitarist can be told. */
-typedef enum { END, ON, OFF, BEND, PEDAL, VIBRATO, PALM, NOTES_OFF, SOUND_OFF } Verb;
+typedef enum {
+  END,
+  ON,
+  OFF,
+  BEND,
+  PEDAL,
+  VIBRATO,
+  PALM,
+  GAIN,
+  PRESSURE,
+  KEY_PRESSURE,
+  BRIGHTNESS,
+  SOSTENUTO,
+  NOTES_OFF,
+  SOUND_OFF
+} Verb;
 
 /** With the numbers that its function takes. */
 typedef struct {

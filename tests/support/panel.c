@@ -1,6 +1,6 @@
 #include "tests/support/panel.h"
 
-#include "tests/support/programs.h"
+#include "tests/support/plugins.h"
 
 #include <lv2/core/lv2.h>
 #include <lv2/port-props/port-props.h>
@@ -37,8 +37,8 @@ bool panel_shows(Host* host, uint32_t port) {
 }
 
 void panel_check_all(void (*check)(Host* host, uint32_t port)) {
-  for (int p = 0; p < PROGRAMS_PLUGINS; ++p) {
-    Host* const host = programs_open(p);
+  for (int p = 0; p < N_PLUGINS; ++p) {
+    Host* const host = plugins_open(p);
     for (uint32_t i = 0; i < host_n_ports(host); ++i) {
       if (panel_shows(host, i)) {
         check(host, i);

@@ -16,22 +16,11 @@
 */
 uint64_t presets_check(Host* host, uint32_t k);
 
-/** Where a preset is for MIDI. */
-typedef struct {
-  uint32_t bank;
-  uint32_t program;
-} PresetPlace;
-
-/** The place that the `k`-th preset says; fail the test unless it says one bank and one program,
- * and the bank a number and a label. */
-PresetPlace presets_place(Host* host, uint32_t k);
-
 /** Fail the test unless there are at least `n` presets and all pass presets_check() and set the
  * same ports, or the sound of one would depend on the one before it. */
 void presets_check_all(Host* (*open)(void), uint32_t n);
 
-/** Fail the test unless both banks and the programs of each are numbered from 0 on without gaps,
- * no two banks have the same label, and "Default" is the first of all. */
-void presets_check_places(Host* host);
+/** Fail the test unless each preset is in one bank, and no two banks have the same label. */
+void presets_check_banks(Host* host);
 
 #endif

@@ -284,7 +284,9 @@ void soak_silence(Soak* soak) {
   send(soak, 0, 0xB0U, STRINGS_PEDAL, 127);
   play_keys(soak, SOAK_BLOCK);
   wait(soak, 0.3);
-  send(soak, 0, 0xB0U, STRINGS_SOUND_OFF, 0);
+  for (uint32_t channel = 0; channel < N_CHANNELS; ++channel) {
+    send(soak, 0, 0xB0U | channel, STRINGS_SOUND_OFF, 0);
+  }
   wait(soak, 1.0);
   assert_at_rest(soak);
   send(soak, 0, 0x90U, 60, 100);

@@ -47,6 +47,7 @@ void strings_restart(Host* host);
 
 /* Messages, on their frame from the start of the next run; they may lie many runs ahead. */
 
+/** A program change or a channel's pressure has no `data2`. */
 void strings_midi(Host* host, size_t frame, unsigned status, unsigned data1, unsigned data2);
 void strings_note_on(Host* host, size_t frame, uint32_t key, uint32_t velocity);
 void strings_note_off(Host* host, size_t frame, uint32_t key);
