@@ -225,7 +225,6 @@ static Reading reading_of(const GuitarString* string, const GuitarGains* gains) 
 /* Run it as long as the pickups do not change but by their own fade. */
 static void run_stretch(
     GuitarString* string, const GuitarGains* gains, uint32_t from, uint32_t n_frames, float* out) {
-  const bool was_awake = string->voice.is_awake;
   const Reading reading = reading_of(string, gains);
   float samples[CHAIN_MAX_TAPS][GUITAR_MIX_FRAMES];
   float* taps[CHAIN_MAX_TAPS];
@@ -233,10 +232,14 @@ static void run_stretch(
     taps[t] = memset(samples[t], 0, n_frames * sizeof(float));
   }
   voice_run(&string->voice, &reading, 0.0, n_frames, taps);
-  if (was_awake) {
-    pickups_cross(&string->pickups, &reading, n_frames, taps);
-    add(taps, gains, from, n_frames, out);
-  }
+  pickups_cross(&string->pickups, &reading, n_frames, taps);
+  add(taps, gains, from, n_frames, out);
+}
+
+/* What is not heard moves all the same. */
+static void run_asleep(GuitarString* string, uint32_t n_frames) {
+  const Reading none = {.n_taps = 0};
+  voice_run(&string->voice, &none, 0.0, n_frames, NULL);
 }
 
 static void pass(GuitarString* string, uint32_t n_frames) {
@@ -259,9 +262,14 @@ void guitar_string_run(GuitarString* string,
       places_of(string, places);
       pickups_move(&string->pickups, places, string->n_fade);
     }
-    uint32_t n = least(n_frames - done, pickups_stretch(&string->pickups));
+    uint32_t n = n_frames - done;
     n = string->n_damped > 0 ? least(n, string->n_damped) : n;
-    run_stretch(string, gains, done, n, out + done);
+    if (string->voice.is_awake) {
+      n = least(n, pickups_stretch(&string->pickups));
+      run_stretch(string, gains, done, n, out + done);
+    } else {
+      run_asleep(string, n);
+    }
     pass(string, n);
     done += n;
   }
