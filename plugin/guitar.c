@@ -81,10 +81,8 @@ static void run(void* data, uint32_t n_frames, float* left, float* right) {
   guitarist_run(player->guitarist, n_frames, left, right);
 }
 
-static InstrumentReport report(const void* data) {
-  const Player* const player = data;
-  const GuitarReport guitar = guitar_report(player->guitar);
-  return (InstrumentReport){guitar.n_strings, guitar.n_masses, guitar.headroom};
+static VoiceReport report(const void* data) {
+  return guitar_report(((const Player*)data)->guitar);
 }
 
 static const InstrumentKind kind = {

@@ -103,7 +103,7 @@ static void write_value(Instrument* self, uint32_t port, double value) {
 }
 
 static void write_report(Instrument* self) {
-  const InstrumentReport report = self->kind->report(self->player);
+  const VoiceReport report = self->kind->report(self->player);
   write_value(self, self->kind->meters, report.n_strings);
   write_value(self, self->kind->meters + 1, report.n_masses);
   write_value(self, self->kind->meters + 2, report.headroom);

@@ -13,6 +13,7 @@
 #define HOOKE_PLUGIN_INSTRUMENT_H
 
 #include "core/play/performance.h"
+#include "core/voice/voice.h"
 #include "plugin/ports.h"
 #include "plugin/tuner_urids.h"
 
@@ -22,13 +23,6 @@
 #include <stdint.h>
 
 enum { INSTRUMENT_FRAMES = 256 /**< Most frames that are run at a time */ };
-
-/** What is sounding. */
-typedef struct {
-  uint32_t n_strings;
-  uint32_t n_masses;
-  double headroom;
-} InstrumentReport;
 
 /** What an instrument does in its own way; `player` is what its `new` made. */
 typedef struct {
@@ -60,7 +54,7 @@ typedef struct {
 
   /** Run at most INSTRUMENT_FRAMES frames. */
   void (*run)(void* player, uint32_t n_frames, float* left, float* right);
-  InstrumentReport (*report)(const void* player);
+  VoiceReport (*report)(const void* player);
 
   const TunerNames* tuner; /**< What its tuning by files is called; NULL: it has none */
 

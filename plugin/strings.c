@@ -38,9 +38,8 @@ static void set_scale(void* harp, const double semitones[SCALE_KEYS]) {
   harp_set_scale(harp, semitones);
 }
 
-static InstrumentReport report(const void* harp) {
-  const HarpReport now = harp_report(harp);
-  return (InstrumentReport){now.n_strings, now.n_masses, now.headroom};
+static VoiceReport report(const void* harp) {
+  return harp_report(harp);
 }
 
 static const TunerNames tuner = {

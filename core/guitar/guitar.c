@@ -253,15 +253,11 @@ double guitar_fretted(const Guitar* guitar, uint32_t string) {
   return has(guitar, string) ? guitar_string_fretted(&guitar->strings[string]) : 0.0;
 }
 
-GuitarReport guitar_report(const Guitar* guitar) {
-  GuitarReport report = {.headroom = 1.0};
+VoiceReport guitar_report(const Guitar* guitar) {
+  VoiceReport report = {.headroom = 1.0};
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
-    const Voice* const voice = &guitar->strings[w].voice;
-    if (voice->is_awake) {
-      ++report.n_strings;
-      report.n_masses += voice->chain.n_masses;
-      report.headroom = fmin(report.headroom, voice->headroom);
-    }
+    voice_report(&guitar->strings[w].voice, &report);
+    voice_report(&guitar->rests[w].voice, &report);
   }
   return report;
 }

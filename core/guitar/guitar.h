@@ -23,6 +23,7 @@
 #define HOOKE_CORE_GUITAR_GUITAR_H
 
 #include "core/guitar/guitar_patch.h"
+#include "core/voice/voice.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -36,13 +37,6 @@ double guitar_force(uint32_t velocity);
 
 /** The patch's hardness as it is heard of a pluck, 0 to 1: a little harder for a stronger one. */
 double guitar_hardness(double hardness, double force);
-
-/** What is sounding. */
-typedef struct {
-  uint32_t n_strings; /**< Strings awake, those of a course each */
-  uint32_t n_masses;  /**< Their masses */
-  double headroom;    /**< The smallest of their stability margins; 1 if none is awake */
-} GuitarReport;
 
 /** Opaque: a guitar. */
 typedef struct Guitar Guitar;
@@ -122,8 +116,8 @@ bool guitar_is_awake(const Guitar* guitar, uint32_t string);
 /** Where a string is stopped, or is being slid to. */
 double guitar_fretted(const Guitar* guitar, uint32_t string);
 
-/** What is sounding now. */
-GuitarReport guitar_report(const Guitar* guitar);
+/** What is sounding now, tails of what was plucked anew as well. */
+VoiceReport guitar_report(const Guitar* guitar);
 
 /** Run `n_frames` and write them to `left` and `right`. */
 void guitar_run(Guitar* guitar, uint32_t n_frames, float* left, float* right);

@@ -1,19 +1,74 @@
 #include "core/guitar/guitar_string.h"
 
 #include "core/base/maths.h"
-#include "core/guitar/guitar_tone.h"
 
 #include <string.h>
 
 /* Time in which a choked string has died away far enough for another to take its place [s]. */
 static const double LEFT_S = 5.0 * VOICE_CHOKE_S;
 
+uint32_t guitar_string_masses(uint32_t n_open, double frets) {
+  return (uint32_t)fmax(1.0, round((n_open + 1.0) * exp2(-frets / 12.0)) - 1.0);
+}
+
+/* Frets from the nut of one that is counted from the capo; at least 0. */
+static double frets_from_nut(const GuitarPatch* patch, double fret) {
+  return fmax(patch->capo + fret, 0.0);
+}
+
+/* What a note is to sound like without a hand on the string. */
+static TuningTarget free_target(const GuitarString* string, double note, double f0_hz) {
+  return string_patch_target(&string->patch->string, string->voice.rate_hz, note - 69.0, f0_hz);
+}
+
+static double pitch_hz(const GuitarString* string, double note) {
+  return string_patch_pitch_hz(&string->patch->string, note - 69.0);
+}
+
+/* Of the open string, with no hand on it. */
+static TuningTarget open_target(const GuitarString* string) {
+  return free_target(string, string->open, pitch_hz(string, string->open));
+}
+
+/* The palm dulls it, too. */
+static TuningTarget under_palm(const GuitarPatch* patch, TuningTarget target) {
+  const double palm_per_s = GUITAR_PALM_PER_S * patch->palm * patch->palm;
+  const double tau_s = 1.0 / (1.0 / target.tone.tau_s + palm_per_s);
+  return palm_per_s > 0.0 ? tuning_damped(target, tau_s, GUITAR_PALM_LOSS) : target;
+}
+
+/* The pitch where a mass is stopped and nothing else is done: that of the open string's springs. */
+static double uncorrected_hz(const GuitarString* string) {
+  const TuningTarget open = open_target(string);
+  const double frets = frets_from_nut(string->patch, string->voice.motion.slide.value);
+  StringCoefs coefs = {0};
+  if (tuning_solve(&open, string->n_open, &coefs)) {
+    return open.tone.f0_hz;
+  }
+  const Pole first = tuning_mode(coefs, guitar_string_masses(string->n_open, frets), 1);
+  return pole_tone(open.rate_hz, first).f0_hz;
+}
+
+/* What it is to sound like, as it is fretted, bent and damped now.  The damping is that of the note
+ * that is fretted. */
+static VoiceAim aim_of(const GuitarString* string) {
+  const GuitarPatch* const patch = string->patch;
+  const VoiceMotion* const motion = &string->voice.motion;
+  const double note = string->open + patch->capo + motion->slide.value;
+  const double f0_hz = patch->is_uncorrected ? uncorrected_hz(string) : pitch_hz(string, note);
+  const double bent_hz = f0_hz * exp2(motion_bend(motion) / 12.0);
+  return (VoiceAim){
+      .open = under_palm(patch, free_target(string, note, bent_hz)),
+      .damper_s = string->damper == GUITAR_DAMPED ? patch->string.release_s : 0.0,
+  };
+}
+
 /* A pitch that cannot be had chokes it. */
 static void retune(GuitarString* string, uint32_t n_glide) {
   Voice* const voice = &string->voice;
   voice_choke(voice, string->damper == GUITAR_CHOKED);
   if (voice->is_awake) {
-    const VoiceAim aim = guitar_tone(string);
+    const VoiceAim aim = aim_of(string);
     voice_aim(voice, &aim, n_glide);
     string->damper = voice->is_choked ? GUITAR_CHOKED : string->damper;
   }
@@ -21,14 +76,14 @@ static void retune(GuitarString* string, uint32_t n_glide) {
 
 /* Masses between the bridge and where it will be stopped. */
 static uint32_t masses_wanted(const GuitarString* string) {
-  const double frets = guitar_tone_frets(string->patch, guitar_string_fretted(string));
+  const double frets = frets_from_nut(string->patch, guitar_string_fretted(string));
   return guitar_string_masses(string->n_open, frets);
 }
 
 /* What becomes shorter has fewer masses from the beginning of its way on. */
 static void shorten(GuitarString* string) {
   if (string->voice.is_awake) {
-    const VoiceAim aim = guitar_tone(string);
+    const VoiceAim aim = aim_of(string);
     voice_shorten(&string->voice, &aim, masses_wanted(string));
   }
 }
@@ -36,7 +91,7 @@ static void shorten(GuitarString* string) {
 /* And what becomes longer has more at its end. */
 static void lengthen(GuitarString* string) {
   if (string->voice.is_awake) {
-    const VoiceAim aim = guitar_tone(string);
+    const VoiceAim aim = aim_of(string);
     voice_lengthen(&string->voice, &aim, masses_wanted(string));
   }
 }
@@ -72,12 +127,12 @@ static void places_of(const GuitarString* string, Pickup places[PICKUPS]) {
 
 /* From rest, with the masses of the open string that are not stopped. */
 static bool restring(GuitarString* string) {
-  const TuningTarget open = guitar_tone_open(string);
+  const TuningTarget open = open_target(string);
   const uint32_t n_open =
       tuning_max_masses(&open, least(string->patch->string.max_masses, string->voice.capacity));
   Pickup places[PICKUPS];
   string->n_open = n_open > 0 ? n_open : 1;
-  const VoiceAim aim = guitar_tone(string);
+  const VoiceAim aim = aim_of(string);
   places_of(string, places);
   pickups_set(&string->pickups, places);
   return voice_string(&string->voice, &aim, masses_wanted(string), 0);
@@ -103,12 +158,8 @@ void guitar_string_reset(GuitarString* string) {
   string->n_damped = 0;
 }
 
-uint32_t guitar_string_masses(uint32_t n_open, double frets) {
-  return (uint32_t)fmax(1.0, round((n_open + 1.0) * exp2(-frets / 12.0)) - 1.0);
-}
-
 double guitar_string_place(const GuitarString* string, double place) {
-  const double frets = guitar_tone_frets(string->patch, guitar_string_fretted(string));
+  const double frets = frets_from_nut(string->patch, guitar_string_fretted(string));
   return fmin(place * exp2(frets / 12.0), GUITAR_FARTHEST);
 }
 

@@ -36,7 +36,7 @@
 #ifndef HOOKE_CORE_GUITAR_GUITARIST_H
 #define HOOKE_CORE_GUITAR_GUITARIST_H
 
-#include "core/guitar/guitar_event.h"
+#include "core/guitar/guitarist_state.h"
 #include "core/play/performance.h"
 
 #include <stdbool.h>
@@ -44,18 +44,6 @@
 
 /** Farthest that gestures bend a string, to either side [semitones]: the result, not the scale. */
 #define GUITARIST_MOST_BEND 24.0
-
-/** How it plays. */
-typedef struct {
-  bool has_channels; /**< A channel for each string; false: one for all */
-  double strum_s;    /**< From string to string of a chord struck together [s], 0 to 1 */
-  uint32_t legato;   /**< Hardest velocity that is a hammer-on, 0: none is */
-  uint32_t harmonic; /**< Every pluck is touched at 1/(harmonic + 1) of the string: 0 (not at all)
-                        to 3 */
-} GuitaristHow;
-
-/** Opaque: a guitarist, who has no more than the guitar to sound. */
-typedef struct Guitarist Guitarist;
 
 /**
    Seat a guitarist at a guitar with six strings in the usual tuning: one channel, no strum, no

@@ -3,8 +3,10 @@
 #define HOOKE_CORE_GUITAR_GUITARIST_STATE_H
 
 #include "core/guitar/fretboard.h"
-#include "core/guitar/guitarist.h"
+#include "core/guitar/guitar_event.h"
 #include "core/guitar/guitarist_string.h"
+
+#include "core/play/performance.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -13,6 +15,15 @@ enum {
   GUITARIST_EVENTS = 64, /**< Most events gathered in a frame; more are decided in several lots */
   GUITARIST_NO_STRING = GUITAR_STRINGS
 };
+
+/** How it plays. */
+typedef struct {
+  bool has_channels; /**< A channel for each string; false: one for all */
+  double strum_s;    /**< From string to string of a chord struck together [s], 0 to 1 */
+  uint32_t legato;   /**< Hardest velocity that is a hammer-on, 0: none is */
+  uint32_t harmonic; /**< Every pluck is touched at 1/(harmonic + 1) of the string: 0 (not at all)
+                        to 3 */
+} GuitaristHow;
 
 /** The kinds of events that wait for the end of their frame. */
 typedef enum {
@@ -38,7 +49,9 @@ typedef struct {
   uint32_t n_strokes;
 } GuitaristStrum;
 
-struct Guitarist {
+/** A guitarist, who has no more than the guitar to sound; use it through the functions of
+ * core/guitar/guitarist.h. */
+typedef struct {
   GuitarSeat seat;
   GuitaristHow how;
   double tuning_hz;
@@ -54,6 +67,6 @@ struct Guitarist {
   GuitaristEvent events[GUITARIST_EVENTS];
   uint32_t n_events;
   uint32_t n_notes; /**< Notes on among the events, at most FRETBOARD_NOTES */
-};
+} Guitarist;
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "core/base/aligned.h"
 #include "core/base/maths.h"
+#include "core/harp/harp_bridge.h"
 #include "core/harp/harp_channels.h"
 #include "core/harp/harp_mixer.h"
 
@@ -282,15 +283,14 @@ void harp_silence(Harp* harp) {
   }
 }
 
-HarpReport harp_report(const Harp* harp) {
-  HarpReport report = {.headroom = harp_bridge_headroom(harp)};
+VoiceReport harp_report(const Harp* harp) {
+  VoiceReport report = {.headroom = harp_bridge_headroom(harp)};
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    const Voice* const voice = &harp->strings[i].voice;
-    if (voice->is_awake) {
-      ++report.n_strings;
-      report.n_masses += voice->chain.n_masses;
-      report.headroom = fmin(report.headroom, voice->headroom);
-    }
+    voice_report(&harp->strings[i].voice, &report);
   }
   return report;
+}
+
+void harp_run(Harp* harp, uint32_t n_frames, float* left, float* right) {
+  harp_mixer_run(harp, n_frames, left, right);
 }

@@ -14,64 +14,13 @@
 #ifndef HOOKE_CORE_HARP_HARP_H
 #define HOOKE_CORE_HARP_HARP_H
 
-#include "core/base/line.h"
-#include "core/harp/harp_bridge.h"
-#include "core/harp/harp_patch.h"
-#include "core/harp/harp_string.h"
+#include "core/harp/harp_state.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-enum {
-  HARP_KEYS = 128,
-  HARP_CHANNELS = 16,
-  HARP_SPARES = 32,               /**< Strings for keys that more than one channel holds */
-  HARP_BUSES = 1 + HARP_CHANNELS, /**< What channels of gain 1 play, and what each other one does */
-  HARP_STRINGS = HARP_KEYS + HARP_SPARES,
-  HARP_MIX_FRAMES = 256, /**< Frames that are mixed at a time */
-};
-
 /** Largest displacement of one string plucked with full velocity, at level 1. */
 #define HARP_NOTE_PEAK 0.25
-
-/** A channel that plays, and the pedals under it. */
-typedef struct {
-  HarpTouch touch;
-  Line gain;         /**< Of all that it has played */
-  double lift;       /**< Of the dampers of keys that are up: 0 to 1 */
-  double softness;   /**< Of the soft pedal, 0 to 1 */
-  bool is_sostenuto; /**< The sostenuto pedal is down */
-} HarpChannel;
-
-/** What is sounding. */
-typedef struct {
-  uint32_t n_strings; /**< Strings awake */
-  uint32_t n_masses;  /**< Their masses */
-  double headroom; /**< The smallest of their stability margins, see tuning_headroom(), and of the
-                      bridge's; 1 if none is awake */
-} HarpReport;
-
-/** The harp; use it through the functions below. */
-typedef struct Harp {
-  double rate_hz;
-  uint32_t n_gesture; /**< Frames that a player's gesture takes to act */
-  HarpPatch patch;
-  HarpChannel channels[HARP_CHANNELS];
-  Line level;
-  Pickups pickups;
-  uint32_t n_fade;                  /**< Frames that the next fade will take */
-  HarpString strings[HARP_STRINGS]; /**< Of every key, and then of spares */
-  void* memory;                     /**< Memory of all strings; owned */
-  HarpString* awake[HARP_STRINGS];  /**< The strings awake, while they are run */
-  uint8_t buses[HARP_STRINGS];      /**< Where each of them is heard */
-  ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
-  HarpBridge bridge;
-  bool is_bowed;                /**< Whether a note has been bowed since all was still */
-  double rest[2];               /**< What stands still on each side, once one has */
-  Reading reading;              /**< How they were read last */
-  float before[CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is differentiated */
-  float mix[HARP_BUSES][CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
-} Harp;
 
 /**
    Make a harp at rest.
@@ -167,7 +116,7 @@ void harp_silence(Harp* harp);
 /** Run `n_frames` and write them to `left` and `right`. */
 void harp_run(Harp* harp, uint32_t n_frames, float* left, float* right);
 
-/** What is sounding now. */
-HarpReport harp_report(const Harp* harp);
+/** What is sounding now; the headroom is the bridge's, too. */
+VoiceReport harp_report(const Harp* harp);
 
 #endif

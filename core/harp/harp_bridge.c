@@ -1,7 +1,6 @@
 #include "core/harp/harp_bridge.h"
 
 #include "core/base/maths.h"
-#include "core/harp/harp.h"
 #include "core/harp/harp_channels.h"
 #include "core/string/chain_numbers.h"
 

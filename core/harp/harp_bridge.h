@@ -12,56 +12,9 @@
 #ifndef HOOKE_CORE_HARP_HARP_BRIDGE_H
 #define HOOKE_CORE_HARP_HARP_BRIDGE_H
 
-#include "core/string/chain.h"
-#include "core/voice/bridge.h"
+#include "core/harp/harp_state.h"
 
-#include <stdbool.h>
 #include <stdint.h>
-
-enum {
-  HARP_BRIDGE_FRAMES = 64,
-  HARP_BRIDGE_STRINGS = 160,
-  HARP_BRIDGE_WAKES = 2, /**< Strings that wake at a time */
-  HARP_BRIDGE_LOWEST = 21,
-  HARP_BRIDGE_HIGHEST = 108 /**< Keys whose strings wake */
-};
-
-typedef struct Harp Harp;
-
-/** Strings that are stepped by one call. */
-typedef struct {
-  ChainLoop loop;
-  uint32_t bus; /**< Where they are heard */
-  uint32_t first;
-  uint32_t n;
-} HarpBridgeBatch;
-
-/** Where the last mass of a string is, and what the tie makes of it. */
-typedef struct {
-  float* f;      /**< Its position, where it is in floats */
-  double* d;     /**< Where it is in doubles */
-  size_t to_u;   /**< From there to its velocity */
-  double give;   /**< r p */
-  double pull;   /**< p */
-  double spring; /**< s */
-} HarpBridgeEnd;
-
-/** Zero moves nothing. */
-typedef struct {
-  Bridge bridge;
-  uint32_t n_tied;       /**< Strings that are tied: the first of those that are run */
-  uint32_t n_until_look; /**< Frames until the next place of the grid */
-  uint32_t next_key;     /**< Which is asked next whether it is to wake */
-  double loudest;        /**< Of the strings that are tied, since there are any */
-  double level;          /**< How far the bridge moves of late */
-  bool is_gliding;       /**< Whether a tie is */
-  bool is_touched[HARP_BRIDGE_STRINGS]; /**< Those that something acts on after every frame */
-  double spring;                        /**< Σ s while none is */
-  uint32_t n_batches;
-  HarpBridgeBatch batches[HARP_BRIDGE_STRINGS];
-  ChainWork works[HARP_BRIDGE_STRINGS];
-  HarpBridgeEnd ends[HARP_BRIDGE_STRINGS];
-} HarpBridge;
 
 /** A bridge at rest. */
 void harp_bridge_init(HarpBridge* bridge, double rate_hz);

@@ -6,7 +6,7 @@
 #ifndef HOOKE_CORE_HARP_HARP_CHANNELS_H
 #define HOOKE_CORE_HARP_HARP_CHANNELS_H
 
-#include "core/harp/harp.h"
+#include "core/harp/harp_state.h"
 
 /** All channels do nothing, and their pedals are up. */
 void harp_channels_reset(HarpChannel channels[HARP_CHANNELS]);

@@ -1,6 +1,7 @@
 #include "core/harp/harp_mixer.h"
 
 #include "core/base/maths.h"
+#include "core/harp/harp_bridge.h"
 #include "core/string/pickup.h"
 
 #include <math.h>
@@ -270,7 +271,7 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
   return n;
 }
 
-void harp_run(Harp* harp, uint32_t n_frames, float* left, float* right) {
+void harp_mixer_run(Harp* harp, uint32_t n_frames, float* left, float* right) {
   for (uint32_t done = 0; done < n_frames;) {
     Pickup places[PICKUPS];
     harp_patch_pickups(&harp->patch, places);

@@ -1,13 +1,16 @@
 /**
    The way from the strings of the harp to its two outputs: which are run, where they are read, and
-   the level.  harp_run() is here.
+   the level.
 
    Thread: one at a time; real-time safe.
 */
 #ifndef HOOKE_CORE_HARP_HARP_MIXER_H
 #define HOOKE_CORE_HARP_HARP_MIXER_H
 
-#include "core/harp/harp.h"
+#include "core/harp/harp_state.h"
+
+/** See harp_run(). */
+void harp_mixer_run(Harp* harp, uint32_t n_frames, float* left, float* right);
 
 /** Read at the places of the patch at once. */
 void harp_mixer_place_pickups(Harp* harp);

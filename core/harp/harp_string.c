@@ -2,7 +2,6 @@
 
 #include "core/base/maths.h"
 #include "core/harp/harp_balance.h"
-#include "core/harp/harp_target.h"
 
 /* A hammer's mass, as a share of the string's. */
 static const double HAMMER_MASS = 0.25;
@@ -18,8 +17,47 @@ static const double BOW_RELEASE_S = 0.03;
 /* Vibrato that full pressure asks for [semitones]. */
 static const double PRESSED_VIBRATO = 0.5;
 
+/* How the channel's brightness moves the loss between the masses: towards a tenth of it, or up, on
+ * a scale of octaves, to its fourth root. */
+static const double BRIGHTEST_LOSS = 0.1;
+static const double DARKEST_LOSS = 0.75;
+static const double LEAST_DARK_LOSS = 1e-5;
+
 double harp_string_pitch_hz(const HarpString* string) {
   return string_patch_pitch_hz(&string->patch->string, string->semitones + string->touch.bend);
+}
+
+/* What is between the masses when the channel makes the string brighter, or darker. */
+static double loss_of(const HarpString* string) {
+  const double loss = string->patch->string.loss;
+  const double brightness = string->touch.brightness;
+  if (brightness >= 0.0) {
+    return loss * pow(BRIGHTEST_LOSS, brightness);
+  }
+  return pow(fmax(loss, LEAST_DARK_LOSS), 1.0 + DARKEST_LOSS * brightness);
+}
+
+static double damper_of(const HarpString* string, double open_s) {
+  const double shut_s = fmin(open_s, string->patch->string.release_s);
+  return string->lift < 1.0 ? shut_s * pow(open_s / shut_s, string->lift) : 0.0;
+}
+
+static BridgeHold hold_of(const HarpString* string) {
+  const double resonance = string->patch->resonance;
+  const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
+  return resonance > 0.0 ? (BridgeHold){bridge_mass(f0_hz), resonance * resonance * string->lift}
+                         : (BridgeHold){0};
+}
+
+/* What it is to be at a pitch.  Its damper, lifted in part, takes it by the same share of the way
+ * on a scale of octaves of τ.  The lever is the square of the resonance, so that half of it leaves
+ * the pitch of what is heard, and a damper takes it as it takes the string's motion. */
+static VoiceAim aim_at(const HarpString* string, double f0_hz) {
+  const double semitones = (double)string->key - 69.0;
+  TuningTarget open =
+      string_patch_target(&string->patch->string, string->voice.rate_hz, semitones, f0_hz);
+  open.loss = loss_of(string);
+  return (VoiceAim){open, damper_of(string, open.tone.tau_s), hold_of(string)};
 }
 
 static double pressure_of(const HarpString* string) {
@@ -34,7 +72,7 @@ static double vibrato_of(const HarpString* string) {
 /* Bring it to where it is to be after `n_glide` frames. */
 static void glide(HarpString* string, uint32_t n_glide) {
   const double swing = exp2(motion_swing(&string->voice.motion) / 12.0);
-  const VoiceAim aim = harp_target(string, swing * harp_string_pitch_hz(string));
+  const VoiceAim aim = aim_at(string, swing * harp_string_pitch_hz(string));
   voice_aim(&string->voice, &aim, n_glide);
 }
 
@@ -79,7 +117,7 @@ void harp_string_rest(HarpString* string) {
 }
 
 static bool restring(HarpString* string, uint32_t n_tie) {
-  const VoiceAim aim = harp_target(string, harp_string_pitch_hz(string));
+  const VoiceAim aim = aim_at(string, harp_string_pitch_hz(string));
   voice_still(&string->voice);
   return voice_string(&string->voice, &aim, string->patch->string.max_masses, n_tie);
 }
@@ -128,7 +166,7 @@ static double place_for(Exciter exciter, double wanted) {
 static void excite(HarpString* string, Pluck pluck) {
   const HarpPatch* const patch = string->patch;
   Voice* const voice = &string->voice;
-  const TuningTarget target = harp_target(string, voice->f0_hz).open;
+  const TuningTarget target = aim_at(string, voice->f0_hz).open;
   const HarpBalance balance = {target, voice->chain.n_masses, string->key, HAMMER_MASS};
   pluck.place = place_for(patch->exciter, pluck.place);
   pluck.amplitude *= harp_balance_gain(patch, &balance, pluck);
@@ -155,7 +193,7 @@ static void wake_or_renew(HarpString* string, uint32_t n_glide) {
     return;
   }
   voice_choke(voice, false);
-  const VoiceAim aim = harp_target(string, harp_string_pitch_hz(string));
+  const VoiceAim aim = aim_at(string, harp_string_pitch_hz(string));
   voice_lengthen(voice, &aim, voice->n_strung);
   harp_string_retune(string, n_glide);
 }

@@ -520,6 +520,14 @@ void voice_run(
   }
 }
 
+void voice_report(const Voice* voice, VoiceReport* report) {
+  if (voice->is_awake) {
+    ++report->n_strings;
+    report->n_masses += voice->chain.n_masses;
+    report->headroom = fmin(report->headroom, voice->headroom);
+  }
+}
+
 double voice_energy(const Voice* voice) {
   return voice->is_awake ? chain_energy(&voice->chain) : 0.0;
 }

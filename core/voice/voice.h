@@ -111,6 +111,14 @@ typedef struct {
   bool is_choked;         /**< Whether it is to be let go soon, however slow its upper modes are */
 } Voice;
 
+/** What is sounding of several. */
+typedef struct {
+  uint32_t n_strings; /**< Voices awake */
+  uint32_t n_masses;  /**< Their masses */
+  double headroom;    /**< The smallest of their stability margins, see tuning_headroom(); 1 if none
+                         is awake */
+} VoiceReport;
+
 /** Frames that a gesture takes at a rate. */
 uint32_t voice_gesture_frames(double rate_hz);
 
@@ -252,6 +260,9 @@ ChainTap voice_tap(const Voice* voice, const Pickup* pickup, double angle1);
 */
 void voice_run(
     Voice* voice, const Reading* reading, double angle1, uint32_t n_frames, float* const* out);
+
+/** Add a voice, if it is awake, to what is sounding. */
+void voice_report(const Voice* voice, VoiceReport* report);
 
 /* Its energy, in the measure of chain_energy() */
 

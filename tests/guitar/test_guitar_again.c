@@ -155,8 +155,26 @@ static void the_cut_into_blocks_does_not_matter(void** state) {
   guitar_free(guitar);
 }
 
+/* What was plucked anew sounds on for a while beside it, and is counted. */
+static void tails_that_ring_are_counted(void** state) {
+  (void)state;
+  Guitar* const guitar = make();
+  guitar_pluck(guitar, 2, plain);
+  guitar_run(guitar, NOTE, left, right);
+  const VoiceReport one = guitar_report(guitar);
+  guitar_pluck(guitar, 2, plain);
+  const VoiceReport two = guitar_report(guitar);
+  assert_int_equal(one.n_strings, 1);
+  assert_int_equal(two.n_strings, 2);
+  assert_int_equal(two.n_masses, 2 * one.n_masses);
+  guitar_run(guitar, NOTE, left, right);
+  assert_int_equal(guitar_report(guitar).n_strings, 1);
+  guitar_free(guitar);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(tails_that_ring_are_counted),
       cmocka_unit_test(repeated_notes_are_as_loud),
       cmocka_unit_test(a_note_is_what_it_would_be_by_itself),
       cmocka_unit_test(what_was_before_dies_without_a_click),

@@ -139,7 +139,7 @@ static void check(
   guitar_reset(guitar);
   guitar_fret(guitar, string, fret);
   guitars_pluck(guitar, string, 1.0);
-  const GuitarReport report = guitar_report(guitar);
+  const VoiceReport report = guitar_report(guitar);
   const uint32_t expected = masses_expected(&patch, rate_hz, string, fret);
   const bool is_broken = !(cents <= MOST_CENTS) || !(decay <= MOST_DECAY_ERROR) ||
                          report.n_masses != expected || !(report.headroom >= 0.0);

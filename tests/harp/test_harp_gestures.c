@@ -153,7 +153,7 @@ static void check_strings(const Harp* harp) {
       ++n_strings;
     }
   }
-  const HarpReport report = harp_report(harp);
+  const VoiceReport report = harp_report(harp);
   assert_int_equal(report.n_strings, n_strings);
   assert_true(report.headroom >= TUNING_LAST_MARGIN - 16.0 * DBL_EPSILON);
 }

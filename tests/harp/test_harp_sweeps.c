@@ -100,7 +100,7 @@ static void run_block(Sweep* sweep, uint32_t n_frames) {
     assert_true(isfinite(peak));
     sweep->peak = fmax(sweep->peak, peak);
   }
-  const HarpReport report = harp_report(sweep->harp);
+  const VoiceReport report = harp_report(sweep->harp);
   assert_true(report.headroom > 0.0);
   sweep->least_headroom = fmin(sweep->least_headroom, report.headroom);
 }

@@ -157,7 +157,7 @@ static void meters_report_the_guitar(void** state) {
     guitarist_note_on(duo.guitarist, 0, 40 + 7 * i, 100);
     strings_run(host, &sound, 0, BLOCK, BLOCK);
     duo_run(&duo, &sound, 0, BLOCK);
-    const GuitarReport report = guitar_report(duo.guitar);
+    const VoiceReport report = guitar_report(duo.guitar);
     assert_int_equal(report.n_strings, 2 * (i + 1));
     assert_true(host_get(host, "sounding") == (float)report.n_strings);
     assert_true(host_get(host, "mass_count") == (float)report.n_masses);

@@ -8,7 +8,7 @@
 #ifndef HOOKE_TOOLS_BENCH_BENCH_BLOCK_H
 #define HOOKE_TOOLS_BENCH_BENCH_BLOCK_H
 
-#include "tools/bench/bench.h"
+#include "tools/bench/bench_choice.h"
 
 /** What is done in one block. */
 typedef enum {

@@ -6,7 +6,7 @@
 #ifndef HOOKE_TOOLS_BENCH_BENCH_SURVEY_H
 #define HOOKE_TOOLS_BENCH_BENCH_SURVEY_H
 
-#include "tools/bench/bench.h"
+#include "tools/bench/bench_choice.h"
 #include "tools/bench/bench_way.h"
 
 /** The strings: 55, 110, 440 and 1760 Hz, with B = 0 and 1e-4, at five rates; τ is 2 s, and 1 % of

@@ -234,7 +234,7 @@ typedef struct {
   unsigned given;             // Options
   double value[N_OPTIONS];    // Of those that are given
   ScoreSpan length[N_OPTIONS];
-} Line;
+} ScoreLine;
 
 static unsigned find_option(const char* word, unsigned allowed) {
   unsigned i = 0;
@@ -265,7 +265,7 @@ static const char* first_word(unsigned bits) {
   return options[i].word;
 }
 
-static bool take_option(Text* text, unsigned i, Line* line) {
+static bool take_option(Text* text, unsigned i, ScoreLine* line) {
   const unsigned others = line->given & options[i].alone;
   if (others) {
     return text_fail_at(text, text->line, "found '%s' after '%s', expected one of them only",
@@ -277,7 +277,7 @@ static bool take_option(Text* text, unsigned i, Line* line) {
                                  : true;
 }
 
-static bool take_options(Text* text, unsigned allowed, unsigned required, Line* line) {
+static bool take_options(Text* text, unsigned allowed, unsigned required, ScoreLine* line) {
   for (const char* word = text_word(text); word; word = text_word(text)) {
     const unsigned i = find_option(word, allowed);
     if (i == N_OPTIONS) {
@@ -292,11 +292,11 @@ static bool take_options(Text* text, unsigned allowed, unsigned required, Line* 
   return !missing || text_fail(text, NULL, text_quote(first_word(missing), expected));
 }
 
-static bool is_given(const Line* line, unsigned bits) {
+static bool is_given(const ScoreLine* line, unsigned bits) {
   return (line->given & bits) != 0;
 }
 
-static double value_or(const Line* line, Option option, double otherwise) {
+static double value_or(const ScoreLine* line, Option option, double otherwise) {
   return is_given(line, 1U << option) ? line->value[option] : otherwise;
 }
 
@@ -324,13 +324,13 @@ static bool add(Reader* reader, Pending pending) {
 }
 
 /* An event whose value `at` is as long as 'for' says. */
-static bool add_long(Reader* reader, const Line* line, Pending pending, int at) {
+static bool add_long(Reader* reader, const ScoreLine* line, Pending pending, int at) {
   pending.length = line->length[OPTION_FOR];
   pending.length_at = at;
   return add(reader, pending);
 }
 
-static Pending pluck_of(const Line* line, uint32_t string, bool is_up) {
+static Pending pluck_of(const ScoreLine* line, uint32_t string, bool is_up) {
   const double force = value_or(line, OPTION_FORCE, USUAL_FORCE);
   Pending pluck = event_of(GUITAR_PLUCK, string, is_up ? -force : force);
   pluck.event.value[1] = (float)value_or(line, OPTION_AT, (double)NAN);
@@ -340,29 +340,29 @@ static Pending pluck_of(const Line* line, uint32_t string, bool is_up) {
   return pluck;
 }
 
-static bool take_pluck(Reader* reader, const Line* line) {
+static bool take_pluck(Reader* reader, const ScoreLine* line) {
   return add(reader, pluck_of(line, line->string, is_given(line, BIT_UP)));
 }
 
-static bool take_fret(Reader* reader, const Line* line) {
+static bool take_fret(Reader* reader, const ScoreLine* line) {
   return add(reader, event_of(GUITAR_FRET, line->string, line->number));
 }
 
-static bool take_hammer(Reader* reader, const Line* line) {
+static bool take_hammer(Reader* reader, const ScoreLine* line) {
   Pending hammer = event_of(GUITAR_HAMMER, line->string, line->number);
   hammer.event.value[1] = (float)value_or(line, OPTION_FORCE, USUAL_HAMMER);
   return add(reader, hammer);
 }
 
-static bool take_slide(Reader* reader, const Line* line) {
+static bool take_slide(Reader* reader, const ScoreLine* line) {
   return add_long(reader, line, event_of(GUITAR_SLIDE, line->string, line->number), 1);
 }
 
-static bool take_bend(Reader* reader, const Line* line) {
+static bool take_bend(Reader* reader, const ScoreLine* line) {
   return add_long(reader, line, event_of(GUITAR_BEND, line->string, line->number), 1);
 }
 
-static bool take_vibrato(Reader* reader, const Line* line) {
+static bool take_vibrato(Reader* reader, const ScoreLine* line) {
   Pending vibrato = event_of(GUITAR_VIBRATO, line->string, line->number);
   vibrato.event.value[1] = (float)value_or(line, OPTION_RATE, USUAL_RATE_HZ);
   if (!add(reader, vibrato)) {
@@ -377,16 +377,16 @@ static bool take_vibrato(Reader* reader, const Line* line) {
   return add(reader, vibrato);
 }
 
-static bool damp(Reader* reader, const Line* line, uint32_t string) {
+static bool damp(Reader* reader, const ScoreLine* line, uint32_t string) {
   const Pending damping = event_of(GUITAR_DAMP, string, (double)INFINITY);
   return is_given(line, BIT_FOR) ? add_long(reader, line, damping, 0) : add(reader, damping);
 }
 
-static bool take_damp(Reader* reader, const Line* line) {
+static bool take_damp(Reader* reader, const ScoreLine* line) {
   return damp(reader, line, line->string);
 }
 
-static bool take_mute(Reader* reader, const Line* line) {
+static bool take_mute(Reader* reader, const ScoreLine* line) {
   for (uint32_t string = 0; string < SCORE_STRINGS; ++string) {
     if (!damp(reader, line, string)) {
       return false;
@@ -395,15 +395,15 @@ static bool take_mute(Reader* reader, const Line* line) {
   return true;
 }
 
-static bool take_ring(Reader* reader, const Line* line) {
+static bool take_ring(Reader* reader, const ScoreLine* line) {
   return add(reader, event_of(GUITAR_LET_RING, line->string, 0.0));
 }
 
-static bool take_touch(Reader* reader, const Line* line) {
+static bool take_touch(Reader* reader, const ScoreLine* line) {
   return add_long(reader, line, event_of(GUITAR_TOUCH, line->string, line->value[OPTION_AT]), 1);
 }
 
-static bool take_harmonic(Reader* reader, const Line* line) {
+static bool take_harmonic(Reader* reader, const ScoreLine* line) {
   Pending touch = event_of(GUITAR_TOUCH, line->string, 1.0 / line->number);
   touch.length =
       is_given(line, BIT_FOR) ? line->length[OPTION_FOR] : (ScoreSpan){.value = USUAL_TOUCH_S};
@@ -411,11 +411,11 @@ static bool take_harmonic(Reader* reader, const Line* line) {
   return add(reader, touch) && take_pluck(reader, line);
 }
 
-static bool take_palm(Reader* reader, const Line* line) {
+static bool take_palm(Reader* reader, const ScoreLine* line) {
   return add(reader, event_of(GUITAR_PALM, 0, line->number));
 }
 
-static bool finger_chord(Reader* reader, const Line* line) {
+static bool finger_chord(Reader* reader, const ScoreLine* line) {
   bool is_ok = true;
   for (uint32_t i = SCORE_STRINGS; is_ok && i-- > 0;) {
     is_ok = add(reader, isnan(line->fret[i]) ? event_of(GUITAR_DAMP, i, (double)INFINITY)
@@ -426,7 +426,7 @@ static bool finger_chord(Reader* reader, const Line* line) {
 
 /* The hand is at the first string that it plays when the line begins, and passes over the others at
  * an even pace. */
-static bool take_strum(Reader* reader, const Line* line) {
+static bool take_strum(Reader* reader, const ScoreLine* line) {
   const ScoreSpan usual = {.value = USUAL_SPREAD_S};
   const ScoreSpan spread = is_given(line, BIT_SPREAD) ? line->length[OPTION_SPREAD] : usual;
   bool is_ok = finger_chord(reader, line);
@@ -453,7 +453,7 @@ static const struct {
   const TextRange* range; // Of the number, or NULL
   unsigned allowed;
   unsigned required;
-  bool (*take)(Reader* reader, const Line* line);
+  bool (*take)(Reader* reader, const ScoreLine* line);
 } verbs[] = {
     {"pluck", ON_STRING, NULL, BITS_PLUCK, 0, take_pluck},
     {"fret", ON_STRING, &FRET, 0, 0, take_fret},
@@ -484,7 +484,7 @@ static bool take_chord_fret(Text* text, uint32_t string, double* fret) {
 }
 
 /* As chord charts do: the lowest string first. */
-static bool take_chord(Text* text, Line* line) {
+static bool take_chord(Text* text, ScoreLine* line) {
   const char* const stroke = text_word(text);
   if (!stroke || (strcmp(stroke, "down") != 0 && strcmp(stroke, "up") != 0)) {
     return text_fail(text, stroke, "down or up");
@@ -500,7 +500,7 @@ static bool take_chord(Text* text, Line* line) {
   return is_played || text_fail(text, "x", "a fret for one string at least");
 }
 
-static bool take_object(Text* text, Object object, Line* line) {
+static bool take_object(Text* text, Object object, ScoreLine* line) {
   double string = 1.0;
   const bool is_ok = object == ON_CHORD    ? take_chord(text, line)
                      : object == ON_STRING ? text_number(text, &STRING, &string)
@@ -512,7 +512,7 @@ static bool take_object(Text* text, Object object, Line* line) {
 /* `word` is the verb; NULL is the end of the line. */
 static bool read_verb(Reader* reader, const char* word, const Moment* moment) {
   Text* const text = &reader->text;
-  Line line = {0};
+  ScoreLine line = {0};
   size_t i = 0;
   while (word && i < sizeof(verbs) / sizeof(verbs[0]) && strcmp(verbs[i].word, word) != 0) {
     ++i;
