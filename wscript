@@ -2,16 +2,17 @@
 
 Sources are found by where they lie, so that a new one needs no line here:
 
-    core/*.c           a static library, in the plugin and in everything else
-    core/*_avx2.c      the part of it for processors with AVX2 and FMA, which is chosen when it runs
-    plugin/*.c         the plugin, hooke.lv2/hooke.so, and a static library for the tests of its parts
-    ttl/, presets/     the plugin's descriptions and presets, beside it
-    tools/commands/main.c       the program `hooke`; the other tools/*.c are a library which the tests share
-    tests/test_*.c     a test program each; the other tests/*.c are linked into all of them
-    tests/plant_*.c    a library each, built as the plugin is, with a fault that a test has to find
-    tests/hosts/*.c    a program each, for the tests that run hosts; watch_*.c are one library, which is preloaded into them
-    tests/test_*.sh    run as tests too
-    tests/fuzz/        the fuzz harnesses, see tests/fuzzing.py
+    core/*/*.c             a static library, in the plugin and in everything else
+    core/*/*_avx2.c        the part of it for processors with AVX2 and FMA, which is chosen when it runs
+    core/analysis/*.c      what needs LAPACK: a library for the program and the tests, and no part of the plugin
+    plugin/*.c             the plugin, hooke.lv2/hooke.so, and a static library for the bench and the tests
+    ttl/, presets/         the plugin's descriptions and presets, beside it
+    tools/commands/main.c  the program `hooke`; the other tools/*/*.c are a library which the tests share
+    tests/*/test_*.c       a test program each; the rest of tests/support/*.c is linked into all of them
+    tests/support/plant_*  a library each, built as the plugin is, with a fault that a test has to find
+    tests/hosts/*.c        a program each, for the tests that run hosts; watch_*.c are one library, preloaded into them
+    tests/*/test_*.sh      run as tests too
+    tests/fuzz/            the fuzz harnesses, see tests/fuzzing.py
 
 The rest lies in tools/packing.py (installing, packing), tools/cross.py (other machines), tools/report.py (the paper's
 figures) and tests/runner.py.

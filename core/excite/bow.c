@@ -95,7 +95,7 @@ static void follow(Bow* bow) {
 static void move_on(Bow* bow, const Chain* chain) {
   if (bow->place.n_left > 0) {
     (void)line_next(&bow->place);
-    bow_look(bow, chain);
+    bow_notice(bow, chain);
   }
 }
 
@@ -145,7 +145,7 @@ void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, doubl
   line_to(&bow->pressed, force, frames_of(0.5 * stroke.attack_s, rate_hz));
   bow->n_lift = frames_of(stroke.release_s, rate_hz);
   bow->spring = spring;
-  bow_look(bow, chain);
+  bow_notice(bow, chain);
 }
 
 void bow_swell(Bow* bow, double strength, uint32_t n_frames) {
@@ -159,7 +159,7 @@ void bow_lift(Bow* bow) {
   }
 }
 
-void bow_look(Bow* bow, const Chain* chain) {
+void bow_notice(Bow* bow, const Chain* chain) {
   const Contact contact = contact_at(chain, bow->place.value);
   bow->before = contact_velocity(chain, &contact);
 }

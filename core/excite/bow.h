@@ -98,7 +98,7 @@ void bow_lift(Bow* bow);
 
 /** See the string anew: call it before the next step when anything but its steps, hammers or other
  * bows has moved it. */
-void bow_look(Bow* bow, const Chain* chain);
+void bow_notice(Bow* bow, const Chain* chain);
 
 /**
    Let the bow act for one step; call it after every step of one frame.

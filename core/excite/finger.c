@@ -29,15 +29,15 @@ static void curve(const Near* near, const double* in, double* out) {
 
 /* B of the place. */
 static void weigh(const Near* near, StringCoefs c, const double* place, double* out) {
-  double bow[N_NEAR];
+  double curvature[N_NEAR];
   double flex[N_NEAR];
   double twist[N_NEAR];
-  curve(near, place, bow);
-  curve(near, bow, flex);
+  curve(near, place, curvature);
+  curve(near, curvature, flex);
   curve(near, flex, twist);
   for (int i = 0; i < N_NEAR; ++i) {
-    const double damped = 0.5 * (c.z0 * place[i] + c.z1 * bow[i]);
-    const double pulled = 0.25 * (c.k1 * bow[i] + c.k2 * flex[i] + c.k3 * twist[i]);
+    const double damped = 0.5 * (c.z0 * place[i] + c.z1 * curvature[i]);
+    const double pulled = 0.25 * (c.k1 * curvature[i] + c.k2 * flex[i] + c.k3 * twist[i]);
     out[i] = place[i] - damped - pulled;
   }
 }

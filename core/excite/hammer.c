@@ -80,7 +80,7 @@ void hammer_start(Hammer* hammer, const Chain* chain, HammerMake make, double ra
       .n_left = (uint32_t)(HAMMER_MOST_S * rate_hz),
       .is_active = true,
   };
-  hammer_look(hammer, chain);
+  hammer_notice(hammer, chain);
 }
 
 void hammer_throw(
@@ -89,7 +89,7 @@ void hammer_throw(
 }
 
 /* What moves the string must not press the felt, for none would have paid for it. */
-void hammer_look(Hammer* hammer, const Chain* chain) {
+void hammer_notice(Hammer* hammer, const Chain* chain) {
   const Contact contact = contact_at(chain, hammer->make.place);
   const double most = held(hammer, 0.0);
   compare(hammer, chain, &contact);

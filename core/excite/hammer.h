@@ -10,7 +10,7 @@
    is the same after the step but for what the felt and the string lose; so no hammer, however
    light, hard or fast, makes a string grow.  That is exact while others who act on the string in
    the same frames do not share a mass with it, and while it is told of all else that moves the
-   string, see hammer_look().
+   string, see hammer_notice().
 
    Thread: one at a time; real-time safe.
 */
@@ -77,7 +77,7 @@ void hammer_start(Hammer* hammer, const Chain* chain, HammerMake make, double ra
 
 /** See the string anew: call it before the next step when anything but its steps, other hammers or
  * bows has moved it.  Where that would have pressed the felt the hammer gives way. */
-void hammer_look(Hammer* hammer, const Chain* chain);
+void hammer_notice(Hammer* hammer, const Chain* chain);
 
 /**
    Let the hammer act for one step; call it after every step of one frame.  While it does not touch

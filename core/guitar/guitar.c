@@ -28,7 +28,7 @@ struct Guitar {
   double palm;       /* The patch's */
   double weight;     /* What guitar_palm() adds */
   GuitarString strings[GUITAR_VOICES];
-  GuitarString rests[GUITAR_VOICES]; /* What they did before they were plucked again */
+  GuitarString tails[GUITAR_VOICES]; /* What they did before they were plucked again */
   void* memory;                      /* Of all strings; owned */
   GuitarMixer mixer;
 };
@@ -44,8 +44,8 @@ static GuitarString* string_of(Guitar* guitar, uint32_t string, int side) {
   return &guitar->strings[string + (side ? GUITAR_STRINGS : 0)];
 }
 
-static GuitarString* rest_of(Guitar* guitar, const GuitarString* string) {
-  return &guitar->rests[string - guitar->strings];
+static GuitarString* tail_of(Guitar* guitar, const GuitarString* string) {
+  return &guitar->tails[string - guitar->strings];
 }
 
 static bool has(const Guitar* guitar, uint32_t string) {
@@ -93,7 +93,7 @@ Guitar* guitar_new(double rate_hz) {
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     char* const memory = (char*)guitar->memory + 2 * w * size;
     guitar_string_init(&guitar->strings[w], &guitar->patch, rate_hz, w, memory);
-    guitar_string_init(&guitar->rests[w], &guitar->patch, rate_hz, w, memory + size);
+    guitar_string_init(&guitar->tails[w], &guitar->patch, rate_hz, w, memory + size);
   }
   guitar_mixer_init(&guitar->mixer);
   return guitar;
@@ -113,7 +113,7 @@ double guitar_rate_hz(const Guitar* guitar) {
 void guitar_reset(Guitar* guitar) {
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     guitar_string_reset(&guitar->strings[w]);
-    guitar_string_reset(&guitar->rests[w]);
+    guitar_string_reset(&guitar->tails[w]);
   }
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
     guitar_mixer_set_gain(&guitar->mixer, &guitar->patch, s, 1.0, 0);
@@ -152,7 +152,7 @@ void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
                                             : pluck.hardness,
           .amplitude = GUITAR_NOTE_PEAK * share * pluck.force,
       };
-      guitar_string_leave(s, rest_of(guitar, s));
+      guitar_string_leave(s, tail_of(guitar, s));
       guitar_string_pluck(s, own);
     }
   }
@@ -257,11 +257,11 @@ VoiceReport guitar_report(const Guitar* guitar) {
   VoiceReport report = {.headroom = 1.0};
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     voice_report(&guitar->strings[w].voice, &report);
-    voice_report(&guitar->rests[w].voice, &report);
+    voice_report(&guitar->tails[w].voice, &report);
   }
   return report;
 }
 
 void guitar_run(Guitar* guitar, uint32_t n_frames, float* left, float* right) {
-  guitar_mixer_run(&guitar->mixer, guitar->strings, guitar->rests, n_frames, left, right);
+  guitar_mixer_run(&guitar->mixer, guitar->strings, guitar->tails, n_frames, left, right);
 }

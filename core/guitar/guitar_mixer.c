@@ -67,18 +67,18 @@ static void add(Line* gain, const float* from, uint32_t n_frames, float* to) {
 }
 
 static void run_string(
-    GuitarMixer* mixer, GuitarString* string, GuitarString* rest, Line pans[2], uint32_t n_frames) {
-  const bool is_heard = string->voice.is_awake || rest->voice.is_awake;
+    GuitarMixer* mixer, GuitarString* string, GuitarString* tail, Line pans[2], uint32_t n_frames) {
+  const bool is_heard = string->voice.is_awake || tail->voice.is_awake;
   if (is_heard) {
     memset(mixer->own, 0, n_frames * sizeof(float));
   }
   guitar_string_run(string, &mixer->now, n_frames, mixer->own);
-  guitar_string_run(rest, &mixer->now, n_frames, mixer->own);
+  guitar_string_run(tail, &mixer->now, n_frames, mixer->own);
   for (int side = 0; side < 2; ++side) {
     if (is_heard) {
       add(&pans[side], mixer->own, n_frames, mixer->sides[side]);
-    } else {
-      line_fill(&pans[side], n_frames, mixer->own);
+    } else if (pans[side].n_left > 0) {
+      line_fill(&pans[side], n_frames, mixer->own); /* It moves all the same. */
     }
   }
 }
@@ -86,7 +86,7 @@ static void run_string(
 /* As many as can be mixed at a time. */
 static void run_some(GuitarMixer* mixer,
                      GuitarString* strings,
-                     GuitarString* rests,
+                     GuitarString* tails,
                      uint32_t n_frames,
                      float* left,
                      float* right) {
@@ -94,7 +94,7 @@ static void run_some(GuitarMixer* mixer,
   memset(mixer->sides[1], 0, n_frames * sizeof(float));
   fill_gains(mixer, n_frames);
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
-    run_string(mixer, &strings[w], &rests[w], mixer->pans[w], n_frames);
+    run_string(mixer, &strings[w], &tails[w], mixer->pans[w], n_frames);
   }
   line_fill(&mixer->level, n_frames, mixer->own);
   for (uint32_t n = 0; n < n_frames; ++n) {
@@ -105,14 +105,14 @@ static void run_some(GuitarMixer* mixer,
 
 void guitar_mixer_run(GuitarMixer* mixer,
                       GuitarString* strings,
-                      GuitarString* rests,
+                      GuitarString* tails,
                       uint32_t n_frames,
                       float* left,
                       float* right) {
   for (uint32_t done = 0; done < n_frames;) {
     const uint32_t rest = n_frames - done;
     const uint32_t n = rest < GUITAR_MIX_FRAMES ? rest : GUITAR_MIX_FRAMES;
-    run_some(mixer, strings, rests, n, left + done, right + done);
+    run_some(mixer, strings, tails, n, left + done, right + done);
     done += n;
   }
 }

@@ -40,7 +40,7 @@ void guitar_mixer_set_gain(
  * to `left` and `right`. */
 void guitar_mixer_run(GuitarMixer* mixer,
                       GuitarString* strings,
-                      GuitarString* rests,
+                      GuitarString* tails,
                       uint32_t n_frames,
                       float* left,
                       float* right);

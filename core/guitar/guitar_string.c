@@ -204,20 +204,20 @@ void guitar_string_vibrato(GuitarString* string, double depth, double rate) {
   start(string);
 }
 
-void guitar_string_leave(GuitarString* string, GuitarString* rest) {
+void guitar_string_leave(GuitarString* string, GuitarString* tail) {
   Voice* const voice = &string->voice;
-  const bool is_taken = rest->voice.is_awake && rest->voice.n_choked < LEFT_S * voice->rate_hz;
+  const bool is_taken = tail->voice.is_awake && tail->voice.n_choked < LEFT_S * voice->rate_hz;
   if (!voice->is_awake || is_taken) {
     return;
   }
-  voice_hand_over(voice, &rest->voice);
-  voice_slide(&rest->voice, rest->voice.motion.slide.value, 0);
-  rest->pickups = string->pickups;
-  rest->open = string->open;
-  rest->n_fade = string->n_fade;
-  rest->n_open = string->n_open;
-  rest->damper = GUITAR_RINGING;
-  guitar_string_damp(rest, GUITAR_CHOKED, 0);
+  voice_hand_over(voice, &tail->voice);
+  voice_slide(&tail->voice, tail->voice.motion.slide.value, 0);
+  tail->pickups = string->pickups;
+  tail->open = string->open;
+  tail->n_fade = string->n_fade;
+  tail->n_open = string->n_open;
+  tail->damper = GUITAR_RINGING;
+  guitar_string_damp(tail, GUITAR_CHOKED, 0);
   if (voice->motion.slide.n_left <= voice->n_gesture) {
     voice_slide(voice, voice->motion.slide.goal, 0);
   }

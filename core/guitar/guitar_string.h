@@ -79,13 +79,13 @@ void guitar_string_bend(GuitarString* string, double semitones, uint32_t n_frame
 void guitar_string_vibrato(GuitarString* string, double depth, double rate);
 
 /**
-   Before it is plucked again: leave its motion to `rest`, where a plectrum that stops a string
+   Before it is plucked again: leave its motion to `tail`, where a plectrum that stops a string
    chokes it, and be at rest, at the fret that it was going to in a gesture.  A string that is
-   asleep stays as it is, and so does one whose last rest has not died away to a hundredth yet.
+   asleep stays as it is, and so does one whose last tail has not died away to a hundredth yet.
 
-   @param rest  Of the same kind, used for nothing else
+   @param tail  Of the same kind, used for nothing else
 */
-void guitar_string_leave(GuitarString* string, GuitarString* rest);
+void guitar_string_leave(GuitarString* string, GuitarString* tail);
 
 /** Pluck it, whatever damps it; `pluck.place` is a fraction of the sounding length. */
 void guitar_string_pluck(GuitarString* string, Pluck pluck);

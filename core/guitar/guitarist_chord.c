@@ -95,7 +95,7 @@ static FretboardUse use_of(Guitarist* guitarist, uint32_t string) {
   return is_ringing || on->is_due ? FRETBOARD_RINGING : FRETBOARD_FREE;
 }
 
-static Fretboard look(Guitarist* guitarist) {
+static Fretboard fretboard_of(Guitarist* guitarist) {
   Fretboard board = {.n_strings = guitarist->n_strings};
   for (uint32_t s = 0; s < guitarist->n_strings; ++s) {
     const GuitaristString* const string = &guitarist->strings[s];
@@ -127,7 +127,7 @@ static void follow(Guitarist* guitarist, const Fretboard* board, const Guitarist
 
 /* Give the notes of a frame strings: first those that have no choice, then the rest as a chord. */
 static void choose_strings(Guitarist* guitarist) {
-  Fretboard board = look(guitarist);
+  Fretboard board = fretboard_of(guitarist);
   uint32_t keys[FRETBOARD_NOTES];
   uint32_t n_keys = 0;
   uint32_t index[GUITARIST_EVENTS];

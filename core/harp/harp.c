@@ -97,8 +97,8 @@ void harp_reset(Harp* harp) {
   harp_bridge_init(&harp->bridge, harp->rate_hz);
   harp->reading.n_taps = 0;
   harp->is_bowed = false;
-  harp->rest[0] = 0.0;
-  harp->rest[1] = 0.0;
+  harp->dc[0] = 0.0;
+  harp->dc[1] = 0.0;
 }
 
 /* Whether what rings has the same coefficients under both. */
@@ -132,7 +132,7 @@ void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]) {
 
 /* Nothing sounds, and nothing is left of what a bow pulled aside. */
 static bool is_still(const Harp* harp) {
-  return harp->rest[0] == 0.0 && harp->rest[1] == 0.0 && harp_report(harp).n_strings == 0;
+  return harp->dc[0] == 0.0 && harp->dc[1] == 0.0 && harp_report(harp).n_strings == 0;
 }
 
 /* What a channel makes of a velocity. */

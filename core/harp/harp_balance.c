@@ -50,7 +50,7 @@ typedef struct {
   double weights[4];
   double rate_hz;
   double both; /* 2 where one pickup is both sides */
-} Scene;
+} Heard;
 
 /* Sums over the modes, as they begin and over the whole time. */
 typedef struct {
@@ -87,29 +87,29 @@ static double square_of_angle(double a) {
   return a * (1.0 + q * (1.0 / 3.0 + q * (8.0 / 45.0)));
 }
 
-static double square_read(const Scene* scene, const double* sines, double a) {
+static double square_read(const Heard* heard, const double* sines, double a) {
   double square = 0.0;
-  for (uint32_t side = 0; side < scene->n_sides; ++side) {
-    const double* const w = &scene->weights[2 * side];
+  for (uint32_t side = 0; side < heard->n_sides; ++side) {
+    const double* const w = &heard->weights[2 * side];
     const double read = w[0] * sines[2 * side] + w[1] * sines[2 * side + 1];
     square += read * read;
   }
-  return scene->both * square * (scene->pickup_type == PICKUP_VELOCITY ? a : 1.0);
+  return heard->both * square * (heard->pickup_type == PICKUP_VELOCITY ? a : 1.0);
 }
 
 /* Add `n` modes that are all as `k` is. */
-static void add(Power* power, const Scene* scene, uint32_t k, const double* turned, double n) {
-  const StringCoefs* const c = &scene->coefs;
+static void add(Power* power, const Heard* heard, uint32_t k, const double* turned, double n) {
+  const StringCoefs* const c = &heard->coefs;
   const double lambda = 2.0 - 2.0 * turned[STRING];
   const Pole mode = {fmin(LARGEST_A, (c->k1 + (c->k2 + c->k3 * lambda) * lambda) * lambda),
                      c->z0 + c->z1 * lambda};
-  const double hz = scene->rate_hz / (2.0 * PI);
-  const double plain = 0.5 * n * spectrum_square(&scene->spectrum, k, mode, &turned[EXCITED]) *
-                       square_read(scene, &turned[TAPPED], mode.a);
-  const double heard = plain * k_weight(hz * hz * square_of_angle(mode.a));
+  const double hz = heard->rate_hz / (2.0 * PI);
+  const double plain = 0.5 * n * spectrum_square(&heard->spectrum, k, mode, &turned[EXCITED]) *
+                       square_read(heard, &turned[TAPPED], mode.a);
+  const double weighed = plain * k_weight(hz * hz * square_of_angle(mode.a));
   power->plain += plain;
-  power->begun += heard;
-  power->whole += heard * kept(0.5 * mode.g * WINDOW_S * scene->rate_hz);
+  power->begun += weighed;
+  power->whole += weighed * kept(0.5 * mode.g * WINDOW_S * heard->rate_hz);
 }
 
 static void turn_to(Turns* turns, double k) {
@@ -134,13 +134,13 @@ static void turn(Turns* turns) {
   }
 }
 
-static Power sum(const Scene* scene, Turns* turns, uint32_t n_masses) {
+static Power sum(const Heard* heard, Turns* turns, uint32_t n_masses) {
   Power power = {0};
   double way = 0.5;
   uint32_t k = 1;
   start(turns);
   for (; k <= n_masses && k <= ONE_BY_ONE; ++k) {
-    add(&power, scene, k, turns->now, 1.0);
+    add(&power, heard, k, turns->now, 1.0);
     turn(turns);
   }
   while (k <= n_masses) {
@@ -149,7 +149,7 @@ static Power sum(const Scene* scene, Turns* turns, uint32_t n_masses) {
     way = fmod(way + GOLDEN, 1.0);
     const uint32_t at = k + (uint32_t)(way * n);
     turn_to(turns, at);
-    add(&power, scene, at, turns->now, n);
+    add(&power, heard, at, turns->now, n);
     k += n;
   }
   return power;
@@ -174,36 +174,36 @@ static Spectrum spectrum_for(const HarpPatch* patch, const HarpBalance* string, 
 
 /* Where the harp's pickups are, or will be. */
 static void
-set_taps(Scene* scene, Turns* turns, const HarpPatch* patch, const HarpBalance* string) {
+set_taps(Heard* heard, Turns* turns, const HarpPatch* patch, const HarpBalance* string) {
   const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
   Pickup places[PICKUPS];
   harp_patch_pickups(patch, places);
   const bool is_one = pickups_are_same(&places[0], &places[1]);
-  scene->n_sides = is_one ? 1 : PICKUPS;
-  scene->both = is_one ? 2.0 : 1.0;
-  for (uint32_t side = 0; side < scene->n_sides; ++side) {
+  heard->n_sides = is_one ? 1 : PICKUPS;
+  heard->both = is_one ? 2.0 : 1.0;
+  for (uint32_t side = 0; side < heard->n_sides; ++side) {
     const Pickup* const pickup = &places[side];
     const ChainTap tap =
         pickup_tap_of_type(pickup->type, string->n_masses, pickup->place,
                            2.0 * PI * f0_hz / string->target.rate_hz, pickup->is_far);
     for (uint32_t i = 2 * side; i < 2 * side + 2; ++i) {
       turns->angle[TAPPED + i] = turns->angle[STRING] * (tap.mass[i % 2] + 1.0);
-      scene->weights[i] = (double)tap.weight[i % 2];
+      heard->weights[i] = (double)tap.weight[i % 2];
     }
   }
 }
 
 double harp_balance_gain(const HarpPatch* patch, const HarpBalance* string, Pluck pluck) {
-  Scene scene = {.pickup_type = patch->pickup_type, .rate_hz = string->target.rate_hz};
+  Heard heard = {.pickup_type = patch->pickup_type, .rate_hz = string->target.rate_hz};
   Turns turns = {.angle = {PI / (string->n_masses + 1.0)}};
-  if (tuning_solve(&string->target, string->n_masses, &scene.coefs)) {
+  if (tuning_solve(&string->target, string->n_masses, &heard.coefs)) {
     return 1.0;
   }
-  scene.spectrum = spectrum_for(patch, string, pluck);
-  turns.angle[EXCITED] = scene.spectrum.angles[0];
-  turns.angle[EXCITED + 1] = scene.spectrum.angles[1];
-  set_taps(&scene, &turns, patch, string);
-  const Power power = sum(&scene, &turns, string->n_masses);
+  heard.spectrum = spectrum_for(patch, string, pluck);
+  turns.angle[EXCITED] = heard.spectrum.angles[0];
+  turns.angle[EXCITED + 1] = heard.spectrum.angles[1];
+  set_taps(&heard, &turns, patch, string);
+  const Power power = sum(&heard, &turns, string->n_masses);
   const double damping =
       patch->string.damping_per_s * exp2(patch->string.tracking * (MIDDLE_KEY - 69.0) / 12.0);
   const double usual = kept(WINDOW_S * damping);

@@ -20,7 +20,7 @@ static const double LEVEL_KEPT = 0.97;
 static const double LIFTED = 0.5;
 
 void harp_bridge_init(HarpBridge* bridge, double rate_hz) {
-  *bridge = (HarpBridge){.bridge = bridge_at(rate_hz), .n_until_look = HARP_BRIDGE_FRAMES};
+  *bridge = (HarpBridge){.bridge = bridge_at(rate_hz), .n_until_grid = HARP_BRIDGE_FRAMES};
 }
 
 /* Nothing moves it any more. */
@@ -29,7 +29,7 @@ static void rest(HarpBridge* bridge) {
   bridge->bridge.w = 0.0;
   bridge->loudest = 0.0;
   bridge->level = 0.0;
-  bridge->n_until_look = HARP_BRIDGE_FRAMES;
+  bridge->n_until_grid = HARP_BRIDGE_FRAMES;
   bridge->next_key = 0;
 }
 
@@ -169,7 +169,7 @@ void harp_bridge_gather(Harp* harp, uint32_t n_tied) {
 uint32_t harp_bridge_stretch(const Harp* harp, uint32_t n_frames) {
   const HarpBridge* const bridge = &harp->bridge;
   if (bridge->n_tied > 0) {
-    n_frames = least(n_frames, bridge->n_until_look);
+    n_frames = least(n_frames, bridge->n_until_grid);
   }
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
     const Voice* const voice = &harp->awake[i]->voice;
@@ -266,9 +266,9 @@ void harp_bridge_pass(Harp* harp, uint32_t n_frames) {
   if (bridge->n_tied == 0) {
     return;
   }
-  bridge->n_until_look -= n_frames;
-  if (bridge->n_until_look == 0) {
-    bridge->n_until_look = HARP_BRIDGE_FRAMES;
+  bridge->n_until_grid -= n_frames;
+  if (bridge->n_until_grid == 0) {
+    bridge->n_until_grid = HARP_BRIDGE_FRAMES;
     lend(harp);
     keep(harp);
     if (bridge->level > WAKING && harp->patch.resonance > 0.0) {

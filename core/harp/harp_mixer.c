@@ -8,11 +8,11 @@
 #include <string.h>
 
 /* Below which what is heard of a bow is taken for standing still [Hz]. */
-static const double REST_HZ = 5.0;
+static const double DC_HZ = 5.0;
 
 /* The same once nothing sounds [Hz]; and what is left of it that nobody hears. */
-static const double SILENT_REST_HZ = 100.0;
-static const double LEAST_REST = 1e-7;
+static const double SILENT_DC_HZ = 100.0;
+static const double LEAST_DC = 1e-7;
 
 void harp_mixer_place_pickups(Harp* harp) {
   Pickup places[PICKUPS];
@@ -144,23 +144,23 @@ mix_down(Harp* harp, const Reading* reading, uint32_t n_frames, float* left, flo
   first note that is bowed on, what stands still is taken out of the sum; before that it is not
   touched.  Exact zeros mean that nothing sounds: then what is left of it is let go.
 */
-static void take_out_rest(Harp* harp, uint32_t n_frames, float* left, float* right) {
+static void block_dc(Harp* harp, uint32_t n_frames, float* left, float* right) {
   if (!harp->is_bowed) {
     return;
   }
-  const double share = -expm1(-2.0 * PI * REST_HZ / harp->rate_hz);
-  const double share_in_silence = -expm1(-2.0 * PI * SILENT_REST_HZ / harp->rate_hz);
+  const double share = -expm1(-2.0 * PI * DC_HZ / harp->rate_hz);
+  const double share_in_silence = -expm1(-2.0 * PI * SILENT_DC_HZ / harp->rate_hz);
   float* const sides[2] = {left, right};
   for (int s = 0; s < 2; ++s) {
-    double rest = harp->rest[s];
+    double dc = harp->dc[s];
     for (uint32_t n = 0; n < n_frames; ++n) {
       const double x = (double)sides[s][n];
       const bool is_silent = x == 0.0;
-      rest += (is_silent ? share_in_silence : share) * (x - rest);
-      rest = is_silent && fabs(rest) < LEAST_REST ? 0.0 : rest;
-      sides[s][n] = (float)(x - rest);
+      dc += (is_silent ? share_in_silence : share) * (x - dc);
+      dc = is_silent && fabs(dc) < LEAST_DC ? 0.0 : dc;
+      sides[s][n] = (float)(x - dc);
     }
-    harp->rest[s] = rest;
+    harp->dc[s] = dc;
   }
 }
 
@@ -267,7 +267,7 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
     }
   }
   mix_down(harp, &reading, n, left, right);
-  take_out_rest(harp, n, left, right);
+  block_dc(harp, n, left, right);
   return n;
 }
 

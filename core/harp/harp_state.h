@@ -59,7 +59,7 @@ typedef struct {
 typedef struct {
   Bridge bridge;
   uint32_t n_tied;       /**< Strings that are tied: the first of those that are run */
-  uint32_t n_until_look; /**< Frames until the next place of the grid */
+  uint32_t n_until_grid; /**< Frames until the next place of the grid */
   uint32_t next_key;     /**< Which is asked next whether it is to wake */
   double loudest;        /**< Of the strings that are tied, since there are any */
   double level;          /**< How far the bridge moves of late */
@@ -88,7 +88,7 @@ typedef struct Harp {
   ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
   HarpBridge bridge;
   bool is_bowed;                /**< Whether a note has been bowed since all was still */
-  double rest[2];               /**< What stands still on each side, once one has */
+  double dc[2];                 /**< What stands still on each side, once a note has been bowed */
   Reading reading;              /**< How they were read last */
   float before[CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is differentiated */
   float mix[HARP_BUSES][CHAIN_MAX_TAPS][HARP_MIX_FRAMES];

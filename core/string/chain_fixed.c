@@ -54,15 +54,15 @@ static double largest(StringCoefs c, uint32_t n_masses, ChainSums sums) {
   const double stiffest = c.k1 + 4.0 * positive(c.k2) + 16.0 * positive(c.k3);
   const double least = least_pull(c);
   const double energy = stiffest * sums.slope + sums.uu;
-  const double energy_of_bow = stiffest * sums.twist + sums.bow;
+  const double energy_of_curvature = stiffest * sums.twist + sums.curvature;
   const double headroom = tuning_headroom(c, n_masses);
   const double headroom_below = 1.0 - middle * (0.25 * stiffest + 0.5 * c.z1);
-  const double above = fmin(energy, energy_of_bow / (middle * middle));
+  const double above = fmin(energy, energy_of_curvature / (middle * middle));
   const double u_split = sqrt(energy / positive(headroom_below)) + sqrt(above / headroom);
   const double u = fmin(sqrt(energy / headroom), u_split);
   const double y = sqrt(energy * (n_masses + 1.0) / (4.0 * least));
   const double slope = sqrt(energy / least) + u;
-  const double twist = sqrt(energy_of_bow / least) + sqrt(energy_of_bow / headroom);
+  const double twist = sqrt(energy_of_curvature / least) + sqrt(energy_of_curvature / headroom);
   double most = fmax(y + 0.5 * u, slope + u);
   if (c.k2 != 0.0 || c.k3 != 0.0) {
     most = fmax(most, fmin(twist, 4.0 * slope));

@@ -4,7 +4,7 @@
 */
 
 /* Each link is computed once and carried. */
-INLINE void step_flexible(Strand* strand, const Links* links, Scene scene) {
+INLINE void step_flexible(Strand* strand, const Links* links, ChainScene scene) {
   Cell* const cells = strand->cells;
   const Coefs* const c = links->c;
   const size_t last = (size_t)strand->n_cells - 1;

@@ -77,12 +77,12 @@ typedef void (*ChainLoop)(const ChainWork* works,
 
 /** Sums over a string's masses, in the units of its numbers. */
 typedef struct {
-  double xx;    /**< Σ x² */
-  double xu;    /**< Σ x u */
-  double uu;    /**< Σ u² */
-  double slope; /**< Σ (Δy)² over the links, those to the walls too; y = x − u/2 */
-  double bow;   /**< Σ (L u)² */
-  double twist; /**< Σ (Δ L y)² over the links, L y being nought at the walls */
+  double xx;        /**< Σ x² */
+  double xu;        /**< Σ x u */
+  double uu;        /**< Σ u² */
+  double slope;     /**< Σ (Δy)² over the links, those to the walls too; y = x − u/2 */
+  double curvature; /**< Σ (L u)² */
+  double twist;     /**< Σ (Δ L y)² over the links, L y being nought at the walls */
 } ChainSums;
 
 /** The loops of one kind of numbers. */

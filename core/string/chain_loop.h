@@ -13,8 +13,8 @@
    CHAIN_LOOP_NAME      the loops that it makes
 
    Glossary:  x  position;  u  scaled velocity h v;  link  what pulls two neighbours together, k1 Δx
-   + z1 Δu + k2 Δ(L x) + k3 Δ(L² x), Δ being the difference between neighbours;  bow  L x, how far a
-   mass is from the middle of its neighbours;  flex  L² x;  j  cell.
+   + z1 Δu + k2 Δ(L x) + k3 Δ(L² x), Δ being the difference between neighbours;  curvature  L x, how
+   far a mass is from the middle of its neighbours;  flex  L² x;  j  cell.
 
    The differences come before the products: they are nearly exact, so a link is as precise as it is
    small.  In whole numbers they are exact, and so is all that moves; only a link is rounded.
@@ -64,7 +64,7 @@ INLINE Strand strand_of(const ChainWork* work) {
 
 /* One frame of one string. */
 INLINE void
-run_frame(Strand* strand, const ChainWork* work, uint32_t n, float* const* out, Scene scene) {
+run_frame(Strand* strand, const ChainWork* work, uint32_t n, float* const* out, ChainScene scene) {
   if (scene.is_moving) {
     strand->wide = advance(strand->wide, work->change);
     strand->now = narrow(strand->wide);
@@ -79,8 +79,11 @@ run_frame(Strand* strand, const ChainWork* work, uint32_t n, float* const* out, 
   }
 }
 
-INLINE void
-run(const ChainWork* works, uint32_t n_works, uint32_t n_frames, float* const* out, Scene scene) {
+INLINE void run(const ChainWork* works,
+                uint32_t n_works,
+                uint32_t n_frames,
+                float* const* out,
+                ChainScene scene) {
   Strand strands[CHAIN_MAX_BATCH];
   for (uint32_t w = 0; w < n_works; ++w) {
     strands[w] = strand_of(&works[w]);
@@ -152,7 +155,7 @@ static ChainSums sum(const void* memory, uint32_t n_masses, uint32_t n_cells) {
   const Cell* const cells = memory;
   Field y; /* Half a step back, where x and u are of the same time */
   Field u;
-  Field bow;
+  Field curvature;
   RealVector xx = {0};
   RealVector xu = {0};
   for (uint32_t j = 0; j < n_cells; ++j) {
@@ -170,10 +173,10 @@ static ChainSums sum(const void* memory, uint32_t n_masses, uint32_t n_cells) {
       .uu = sum_of_squares(u, n_cells),
       .slope = sum_of_slopes(y, n_cells),
   };
-  bend(bow, u, n_masses, n_cells);
-  sums.bow = sum_of_squares(bow, n_cells);
-  bend(bow, y, n_masses, n_cells);
-  sums.twist = sum_of_slopes(bow, n_cells);
+  bend(curvature, u, n_masses, n_cells);
+  sums.curvature = sum_of_squares(curvature, n_cells);
+  bend(curvature, y, n_masses, n_cells);
+  sums.twist = sum_of_slopes(curvature, n_cells);
   return sums;
 }
 
@@ -211,7 +214,7 @@ static void give(void* memory, uint32_t n_cells, double gain, double fade) {
   static void run_##damping##_##elasticity##_##is_moving##_##n_taps(                               \
       const ChainWork* works, uint32_t n_works, uint32_t n_frames, float* const* out) {            \
     run(works, n_works, n_frames, out,                                                             \
-        (Scene){CHAIN_##damping, CHAIN_##elasticity, is_moving, n_taps});                          \
+        (ChainScene){CHAIN_##damping, CHAIN_##elasticity, is_moving, n_taps});                     \
   }
 CHAIN_STILL_SCENES(LOOP)
 #if !CHAIN_LOOP_IS_FIXED

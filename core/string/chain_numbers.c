@@ -103,7 +103,7 @@ ChainSums chain_numbers_sum(const Chain* chain) {
       .xu = square * (of_u * sums.xu + of_x * sums.xx),
       .uu = square * (of_u * (of_u * sums.uu + 2.0 * of_x * sums.xu) + of_x * of_x * sums.xx),
       .slope = square * sums.slope,
-      .bow = square * sums.bow,
+      .curvature = square * sums.curvature,
       .twist = square * sums.twist,
   };
 }

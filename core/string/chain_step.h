@@ -33,7 +33,7 @@ typedef struct {
   ChainElasticity elasticity;
   bool is_moving;
   uint32_t n_taps;
-} Scene;
+} ChainScene;
 
 /* What a string is stepped with: read once before the frames. */
 typedef struct {
@@ -123,7 +123,7 @@ typedef struct {
 typedef struct {
   Vector x;
   Vector u;
-  Vector bow;
+  Vector curvature;
   Vector flex;
 } Slopes;
 
@@ -141,7 +141,7 @@ INLINE RealVector dither_at_end(size_t n_cells, const Links* links) {
 }
 
 /* The largest comes last, so that the small are not lost in its last place. */
-INLINE Vector link_of(Slopes slopes, RealVector dither, const Links* links, Scene scene) {
+INLINE Vector link_of(Slopes slopes, RealVector dither, const Links* links, ChainScene scene) {
   const Coefs* const c = links->c;
   RealVector link = dither;
   if (scene.damping == CHAIN_BETWEEN) {
@@ -151,13 +151,13 @@ INLINE Vector link_of(Slopes slopes, RealVector dither, const Links* links, Scen
     link += c->k3 * real(slopes.flex);
   }
   if (scene.elasticity >= CHAIN_BENDING) {
-    link += c->k2 * real(slopes.bow);
+    link += c->k2 * real(slopes.curvature);
   }
   return number(link + c->k1 * real(slopes.x));
 }
 
 /* Velocity first, then position with the new velocity. */
-INLINE void move(Cell* cell, Vector x, Vector u, Vector pull, const Coefs* c, Scene scene) {
+INLINE void move(Cell* cell, Vector x, Vector u, Vector pull, const Coefs* c, ChainScene scene) {
 #if CHAIN_LOOP_IS_FIXED
   (void)c; /* The gain fades instead. */
   (void)scene;
@@ -174,7 +174,7 @@ INLINE void move(Cell* cell, Vector x, Vector u, Vector pull, const Coefs* c, Sc
 #include "core/string/chain_flexible.h"
 #include "core/string/chain_stiff.h"
 
-INLINE void step(Strand* strand, Scene scene) {
+INLINE void step(Strand* strand, ChainScene scene) {
   const Links links = {&strand->now, dither_of(strand)};
   Cell* const wall = &strand->cells[strand->wall_cell];
   if (scene.elasticity == CHAIN_FLEXIBLE) {

@@ -1,23 +1,23 @@
 /**
    One step of a string that bends: a part of core/string/chain_loop.h.
 
-   The links of a cell need the bow, and where the string is straightened the flex, of the cell
-   itself and of the next, and those the position of the third cell on.  So a window goes along the
-   string in front of the cell that moves, and each value is computed once, in registers.
+   The links of a cell need the curvature, and where the string is straightened the flex, of the
+   cell itself and of the next, and those the position of the third cell on.  So a window goes along
+   the string in front of the cell that moves, and each value is computed once, in registers.
 
-   A hinge carries no moment: bow and flex are nought at a wall, though their neighbours are not.
-   So beyond an end they are not those of the positions there, but those of the other end, a lane
-   on or back, with the wall's lane nought.
+   A hinge carries no moment: curvature and flex are nought at a wall, though their neighbours are
+   not. So beyond an end they are not those of the positions there, but those of the other end, a
+   lane on or back, with the wall's lane nought.
 */
 
 /* What is known when cell j is about to move. */
 typedef struct {
-  Vector x2;        /* Position of cell j + 2 */
-  Vector slope0;    /* x[j + 1] - x[j] */
-  Vector slope1;    /* x[j + 2] - x[j + 1] */
-  Vector bow1;      /* Of cell j + 1 */
-  Vector bow_slope; /* bow[j + 1] - bow[j] */
-  Vector flex0;     /* Of cell j */
+  Vector x2;              /* Position of cell j + 2 */
+  Vector slope0;          /* x[j + 1] - x[j] */
+  Vector slope1;          /* x[j + 2] - x[j + 1] */
+  Vector curvature1;      /* Of cell j + 1 */
+  Vector curvature_slope; /* curvature[j + 1] - curvature[j] */
+  Vector flex0;           /* Of cell j */
   Vector u0;
   Vector link; /* Before cell j */
 } Window;
@@ -26,12 +26,12 @@ typedef struct {
 typedef struct {
   Vector x;
   Vector u;
-  Vector bow;
+  Vector curvature;
   Vector flex;
 } End;
 
 /* Before the first cell moves, while both ends are as they were before the step. */
-INLINE void begin(Window* w, End* end, const Strand* strand, const Links* links, Scene scene) {
+INLINE void begin(Window* w, End* end, const Strand* strand, const Links* links, ChainScene scene) {
   const Cell* const cells = strand->cells;
   const Cell* const far = cells + strand->n_cells - CHAIN_LEAST_CELLS;
   const size_t last = (size_t)strand->n_cells - 1;
@@ -40,18 +40,19 @@ INLINE void begin(Window* w, End* end, const Strand* strand, const Links* links,
   w->x2 = cells[2].x;
   w->slope0 = cells[1].x - cells[0].x;
   w->slope1 = cells[2].x - cells[1].x;
-  w->bow1 = hold_at(w->slope0 - w->slope1, 1, strand);
+  w->curvature1 = hold_at(w->slope0 - w->slope1, 1, strand);
   Slopes slopes = {.x = cells[0].x - before(far[2].x), .u = w->u0 - before(far[2].u)};
-  const Vector bow0 = hold_at(slopes.x - w->slope0, 0, strand);
+  const Vector curvature0 = hold_at(slopes.x - w->slope0, 0, strand);
   const Vector far_slope = far[2].x - far[1].x;
-  const Vector far_bow = hold_at(far_slope - (end->x - far[2].x), last, strand);
-  slopes.bow = bow0 - before(far_bow);
-  w->bow_slope = w->bow1 - bow0;
-  end->bow = behind(bow0);
+  const Vector far_curvature = hold_at(far_slope - (end->x - far[2].x), last, strand);
+  slopes.curvature = curvature0 - before(far_curvature);
+  w->curvature_slope = w->curvature1 - curvature0;
+  end->curvature = behind(curvature0);
   if (scene.elasticity >= CHAIN_STRAIGHTENED) {
-    const Vector farther_bow = hold_at((far[1].x - far[0].x) - far_slope, last - 1, strand);
-    const Vector far_flex = hold_at((far_bow - farther_bow) - (end->bow - far_bow), last, strand);
-    w->flex0 = hold_at(slopes.bow - w->bow_slope, 0, strand);
+    const Vector farther_curvature = hold_at((far[1].x - far[0].x) - far_slope, last - 1, strand);
+    const Vector far_flex = hold_at(
+        (far_curvature - farther_curvature) - (end->curvature - far_curvature), last, strand);
+    w->flex0 = hold_at(slopes.curvature - w->curvature_slope, 0, strand);
     slopes.flex = w->flex0 - before(far_flex);
     end->flex = behind(w->flex0);
   }
@@ -59,8 +60,8 @@ INLINE void begin(Window* w, End* end, const Strand* strand, const Links* links,
 }
 
 /* Move cell j, the link behind which has these slopes. */
-INLINE void
-pass(Window* w, Cell* cell, Slopes slopes, RealVector dither, const Links* links, Scene scene) {
+INLINE void pass(
+    Window* w, Cell* cell, Slopes slopes, RealVector dither, const Links* links, ChainScene scene) {
   const Vector link = link_of(slopes, dither, links, scene);
   move(cell, cell->x, w->u0, link - w->link, links->c, scene);
   w->link = link;
@@ -71,17 +72,17 @@ pass(Window* w, Cell* cell, Slopes slopes, RealVector dither, const Links* links
 INLINE void roll(Window* w,
                  size_t j,
                  Vector slope2,
-                 Vector bow2,
+                 Vector curvature2,
                  const Strand* strand,
                  const Links* links,
                  bool is_free,
-                 Scene scene) {
+                 ChainScene scene) {
   Cell* const cell = &strand->cells[j];
   const Vector u1 = cell[1].u;
-  const Vector bow_slope1 = bow2 - w->bow1;
-  Slopes slopes = {.x = w->slope0, .u = u1 - w->u0, .bow = w->bow_slope};
+  const Vector bow_slope1 = curvature2 - w->curvature1;
+  Slopes slopes = {.x = w->slope0, .u = u1 - w->u0, .curvature = w->curvature_slope};
   if (scene.elasticity >= CHAIN_STRAIGHTENED) {
-    const Vector flex = w->bow_slope - bow_slope1;
+    const Vector flex = w->curvature_slope - bow_slope1;
     const Vector flex1 = is_free ? flex : hold_at(flex, j + 1, strand);
     slopes.flex = flex1 - w->flex0;
     w->flex0 = flex1;
@@ -89,8 +90,8 @@ INLINE void roll(Window* w,
   pass(w, cell, slopes, dither_at(j + 1, links), links, scene);
   w->slope0 = w->slope1;
   w->slope1 = slope2;
-  w->bow1 = bow2;
-  w->bow_slope = bow_slope1;
+  w->curvature1 = curvature2;
+  w->curvature_slope = bow_slope1;
   w->u0 = u1;
 }
 
@@ -101,15 +102,15 @@ INLINE void roll_to(Window* w,
                     const Strand* strand,
                     const Links* links,
                     bool is_free,
-                    Scene scene) {
+                    ChainScene scene) {
   const Vector slope2 = x3 - w->x2;
-  const Vector bow = w->slope1 - slope2;
-  const Vector bow2 = is_free ? bow : hold_at(bow, j + 2, strand);
+  const Vector curvature = w->slope1 - slope2;
+  const Vector curvature2 = is_free ? curvature : hold_at(curvature, j + 2, strand);
   w->x2 = x3;
-  roll(w, j, slope2, bow2, strand, links, is_free, scene);
+  roll(w, j, slope2, curvature2, strand, links, is_free, scene);
 }
 
-INLINE void step_stiff(const Strand* strand, const Links* links, Scene scene) {
+INLINE void step_stiff(const Strand* strand, const Links* links, ChainScene scene) {
   Cell* const cells = strand->cells;
   const size_t last = (size_t)strand->n_cells - 1;
   const size_t n_free = strand->n_free;
@@ -124,7 +125,7 @@ INLINE void step_stiff(const Strand* strand, const Links* links, Scene scene) {
     roll_to(&w, j, cells[j + 3].x, strand, links, false, scene);
   }
   roll_to(&w, last - 2, end.x, strand, links, false, scene);
-  roll(&w, last - 1, (Vector){0}, end.bow, strand, links, false, scene);
-  const Slopes slopes = {w.slope0, end.u - w.u0, w.bow_slope, end.flex - w.flex0};
+  roll(&w, last - 1, (Vector){0}, end.curvature, strand, links, false, scene);
+  const Slopes slopes = {w.slope0, end.u - w.u0, w.curvature_slope, end.flex - w.flex0};
   pass(&w, &cells[last], slopes, dither_at_end(last + 1, links), links, scene);
 }

@@ -139,7 +139,7 @@ static BridgeHold hold_of(const Voice* voice, const VoiceAim* aim) {
 /* Bring it to where it is to be after `n_glide` frames. */
 static bool glide(Voice* voice, const VoiceAim* aim, uint32_t n_glide) {
   const TuningTarget wanted = target_of(voice, aim);
-  const TuningTarget target = intonation_retune(&voice->ear, &wanted, n_glide);
+  const TuningTarget target = intonation_retune(&voice->intonation, &wanted, n_glide);
   if (!retune_tied(voice, &target, hold_of(voice, aim), n_glide)) {
     return false;
   }
@@ -161,16 +161,16 @@ static void glide_choked(Voice* voice, VoiceAim aim, uint32_t n_glide) {
 static void leave(Voice* voice) {
   voice->hammer.is_active = false;
   voice->bow.is_active = false;
-  voice->ear.is_active = false;
+  voice->intonation.is_active = false;
 }
 
 /* What is at it sees that something else has moved it. */
 static void notice(Voice* voice) {
   if (voice->hammer.is_active) {
-    hammer_look(&voice->hammer, &voice->chain);
+    hammer_notice(&voice->hammer, &voice->chain);
   }
   if (voice->bow.is_active) {
-    bow_look(&voice->bow, &voice->chain);
+    bow_notice(&voice->bow, &voice->chain);
   }
 }
 
@@ -229,7 +229,7 @@ static bool act_played(Voice* voice) {
     (void)bow_act(&voice->bow, &voice->chain);
     voice->work += voice->bow.work;
   }
-  const bool is_gliding = intonation_hear(&voice->ear, &voice->chain, voice->bow.before);
+  const bool is_gliding = intonation_hear(&voice->intonation, &voice->chain, voice->bow.before);
   if (is_gliding) {
     tie_follow(&voice->tie, &voice->chain);
   }
@@ -376,8 +376,8 @@ void voice_strike(Voice* voice, Strike strike) {
 
 void voice_bow(Voice* voice, Stroke stroke, const TuningTarget* target) {
   bow_start(&voice->bow, &voice->chain, stroke, angle1_of(voice), voice->rate_hz);
-  if (!voice->ear.is_active) {
-    intonation_start(&voice->ear, target);
+  if (!voice->intonation.is_active) {
+    intonation_start(&voice->intonation, target);
   }
   feed(voice);
 }
@@ -391,7 +391,7 @@ void voice_swell_bow(Voice* voice, double strength, uint32_t n_frames) {
 void voice_lift_bow(Voice* voice) {
   if (voice->bow.is_active) {
     bow_lift(&voice->bow);
-    intonation_leave(&voice->ear, &voice->chain, voice->n_gesture);
+    intonation_leave(&voice->intonation, &voice->chain, voice->n_gesture);
   }
 }
 

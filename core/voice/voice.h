@@ -94,7 +94,7 @@ typedef struct {
   /* What is at it */
   Hammer hammer;
   Bow bow;
-  Intonation ear; /**< What listens while it is bowed */
+  Intonation intonation; /**< What listens while it is bowed */
   VoiceFinger finger;
   const Bridge* bridge; /**< What it can be tied to; NULL: nothing */
   Tie tie;

@@ -94,7 +94,7 @@ static void power_comes_from_the_bow_alone(void** state) {
     const double swing = bow.paced.value * random_below(&random, 4);
     chain_push(&strung.chain, strung.chain.n_masses / 2,
                (float)(swing * (strung.chain.n_masses + 1.0)));
-    bow_look(&bow, &strung.chain);
+    bow_notice(&bow, &strung.chain);
     strung_read(&strung, &motion[0]);
     double before = strung_energy(&motion[0], coefs);
     double rolled = 0.0;

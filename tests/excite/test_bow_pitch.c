@@ -32,7 +32,7 @@ static bool is_long(void) {
 typedef struct {
   Strung strung;
   Bow bow;
-  Intonation ear;
+  Intonation intonation;
   TuningTarget target;
 } Bowed;
 
@@ -51,7 +51,7 @@ static void take_up(Bowed* bowed, Setting s) {
   strung_up(&bowed->strung, memory, &bowed->target, s.limit, CHAIN_FLOAT);
   bow_start(&bowed->bow, &bowed->strung.chain, (Stroke){s.place, s.pressure, 0.25, 0.04, 0.03},
             bowed->strung.angle1, s.rate_hz);
-  intonation_start(&bowed->ear, &bowed->target);
+  intonation_start(&bowed->intonation, &bowed->target);
 }
 
 static void play(Bowed* bowed, size_t from, size_t to) {
@@ -59,7 +59,7 @@ static void play(Bowed* bowed, size_t from, size_t to) {
   for (size_t i = from; i < to; ++i) {
     heard[i] = strung_step(&bowed->strung, mass);
     bow_act(&bowed->bow, &bowed->strung.chain);
-    intonation_hear(&bowed->ear, &bowed->strung.chain, bowed->bow.before);
+    intonation_hear(&bowed->intonation, &bowed->strung.chain, bowed->bow.before);
   }
 }
 
@@ -107,14 +107,14 @@ static void hear(Setting s, Worst* worst) {
   if (getenv("HOOKE_TEST_TABLE") && (late > 1.0 || early > 3.0 || decibels < -4.0)) {
     print_message("  %u %g Hz place %.2f pressure %.1f limit %u B %g: %.2f %.2f c %.1f dB %+.1f\n",
                   s.key, s.rate_hz, s.place, s.pressure, s.limit, s.inharmonicity, early, late,
-                  decibels, bowed.ear.cents);
+                  decibels, bowed.intonation.cents);
   }
   worst->early = fmax(worst->early, early);
   worst->late = fmax(worst->late, late);
   worst->n_off += late <= 3.0 ? 0 : 1;
   ++worst->n;
   worst->softest = fmin(worst->softest, decibels);
-  worst->moved = fmax(worst->moved, fabs(bowed.ear.cents));
+  worst->moved = fmax(worst->moved, fabs(bowed.intonation.cents));
 }
 
 static Worst hear_all(uint32_t first, uint32_t last, uint32_t step, double inharmonicity) {
@@ -170,10 +170,10 @@ static void lifted_strings_go_home(void** state) {
       take_up(&bowed, (Setting){key, rate_hz, 0.06, 0.9, 3e-5, 40});
       const StringCoefs own = bowed.strung.chain.now;
       play(&bowed, 0, bowed_n);
-      moved = fmax(moved, fabs(bowed.ear.cents));
+      moved = fmax(moved, fabs(bowed.intonation.cents));
       const uint32_t n_gesture = voice_gesture_frames(rate_hz);
       bow_lift(&bowed.bow);
-      intonation_leave(&bowed.ear, &bowed.strung.chain, n_gesture);
+      intonation_leave(&bowed.intonation, &bowed.strung.chain, n_gesture);
       assert_true(bowed.strung.chain.n_gliding <= n_gesture);
       play(&bowed, bowed_n, all);
       assert_true(bowed.strung.chain.now.k1 == own.k1 && bowed.strung.chain.now.z0 == own.z0);
@@ -202,13 +202,13 @@ static void the_string_is_moved_gently(void** state) {
       double before = 0.0;
       for (size_t i = 0; i < (size_t)(0.5 * rate_hz); ++i) {
         play(&bowed, i, i + 1);
-        if (bowed.ear.cents != before) {
+        if (bowed.intonation.cents != before) {
           ++n_moves;
           assert_true(bowed.strung.chain.n_gliding >= VOICE_GESTURE_FRAMES &&
                       bowed.strung.chain.n_gliding + 1.0 >= VOICE_GESTURE_S * rate_hz);
-          steepest = fmax(steepest, fabs(bowed.ear.cents - before));
+          steepest = fmax(steepest, fabs(bowed.intonation.cents - before));
         }
-        before = bowed.ear.cents;
+        before = bowed.intonation.cents;
       }
       assert_true(fabs(before) <= INTONATION_MOST_CENTS);
     }
@@ -233,7 +233,7 @@ static void bends_and_vibrato_are_followed(void** state) {
                                         : 0.3 * sin(2.0 * PI * 5.0 * (double)n / RATE);
       StringCoefs coefs = {0};
       bowed.target.tone.f0_hz = first.tone.f0_hz * exp2(semitones / 12.0);
-      const TuningTarget moved = intonation_retune(&bowed.ear, &bowed.target, PIECE);
+      const TuningTarget moved = intonation_retune(&bowed.intonation, &bowed.target, PIECE);
       assert_int_equal(tuning_fit(&moved, bowed.strung.chain.n_masses, &coefs), STATUS_OK);
       chain_glide(&bowed.strung.chain, coefs, PIECE);
       play(&bowed, RATE / 2 + n, RATE / 2 + n + PIECE);

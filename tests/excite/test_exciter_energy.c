@@ -100,10 +100,10 @@ static void look(Played* played) {
   Chain* const chain = &played->strung.chain;
   chain_hold(chain, CHAIN_DOUBLE);
   if (played->hammer.is_active) {
-    hammer_look(&played->hammer, chain);
+    hammer_notice(&played->hammer, chain);
   }
   if (played->bow.is_active) {
-    bow_look(&played->bow, chain);
+    bow_notice(&played->bow, chain);
   }
   strung_read(&played->strung, &motions[0]);
   played->current = &motions[0];

@@ -152,7 +152,7 @@ static void looking_anew_mends_the_books(void** state) {
     follow(&strung, &hammer, 3, &balance);
     const double pushed = hammer.force > 0.0 ? 0.1 * hammer.now : make.velocity;
     chain_push(&strung.chain, strung.chain.n_masses / 2, (float)pushed);
-    hammer_look(&hammer, &strung.chain);
+    hammer_notice(&hammer, &strung.chain);
     follow(&strung, &hammer, 10, &balance);
   }
   assert_within("change of energy in a step, of all of it", balance.drift, 3e-11);

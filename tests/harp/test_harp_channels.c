@@ -1,6 +1,6 @@
 /* Who plays which string: channels and spare strings. */
 #include "core/harp/harp_channels.h"
-#include "tests/support/channels.h"
+#include "tests/support/harp_notes.h"
 #include "tests/support/harps.h"
 #include "tests/support/measure.h"
 #include "tests/support/oracle.h"
@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-enum { RATE = CHANNELS_RATE, KEY = 57 };
+enum { RATE = HARP_NOTES_RATE, KEY = 57 };
 
 static float left[RATE];
 
@@ -31,37 +31,37 @@ static const HarpString* spare_at(const Harp* harp, uint32_t key) {
 
 static void two_channels_have_a_string_each_at_one_key(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   harp_bend(harp, 3, 0.5);
   harp_note_on(harp, 2, KEY, 100);
   harp_note_on(harp, 3, KEY, 100);
   assert_int_equal(harp_report(harp).n_strings, 2);
-  channels_check_pitch(harp, &harp->strings[KEY], 0.0);
-  channels_check_pitch(harp, spare_at(harp, KEY), 0.5);
+  harp_notes_check_pitch(harp, &harp->strings[KEY], 0.0);
+  harp_notes_check_pitch(harp, spare_at(harp, KEY), 0.5);
   harp_bend(harp, 2, -7.0);
-  channels_check_pitch(harp, &harp->strings[KEY], -7.0);
-  channels_check_pitch(harp, spare_at(harp, KEY), 0.5);
+  harp_notes_check_pitch(harp, &harp->strings[KEY], -7.0);
+  harp_notes_check_pitch(harp, spare_at(harp, KEY), 0.5);
   harp_free(harp);
 }
 
 static void a_channel_lets_up_its_own_key_only(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   harp_note_on(harp, 2, KEY, 100);
   harp_note_on(harp, 3, KEY, 100);
   harp_note_off(harp, 4, KEY);
-  channels_check_decay(harp, &harp->strings[KEY], channels_open_s(KEY));
+  harp_notes_check_decay(harp, &harp->strings[KEY], harp_notes_open_s(KEY));
   harp_note_off(harp, 3, KEY);
-  channels_check_decay(harp, &harp->strings[KEY], channels_open_s(KEY));
-  channels_check_decay(harp, spare_at(harp, KEY), CHANNELS_RELEASE_S);
+  harp_notes_check_decay(harp, &harp->strings[KEY], harp_notes_open_s(KEY));
+  harp_notes_check_decay(harp, spare_at(harp, KEY), HARP_NOTES_RELEASE_S);
   harp_all_notes_off(harp, 2);
-  channels_check_decay(harp, &harp->strings[KEY], CHANNELS_RELEASE_S);
+  harp_notes_check_decay(harp, &harp->strings[KEY], HARP_NOTES_RELEASE_S);
   harp_free(harp);
 }
 
 static void one_channel_has_one_string_at_a_key(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   harp_note_on(harp, 2, KEY, 100);
   harp_note_on(harp, 3, KEY, 100);
   harp_note_on(harp, 2, KEY, 100);
@@ -73,7 +73,7 @@ static void one_channel_has_one_string_at_a_key(void** state) {
 
 static void a_guest_that_rings_is_left_alone(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   for (uint32_t key = KEY; key < KEY + 3; ++key) {
     harp_pedal(harp, 3, 1.0);
     harp_note_on(harp, 2, key, 100);
@@ -82,7 +82,7 @@ static void a_guest_that_rings_is_left_alone(void** state) {
   }
   assert_int_equal(harp_report(harp).n_strings, 6);
   for (uint32_t key = KEY; key < KEY + 3; ++key) {
-    channels_check_pitch(harp, spare_at(harp, key), 0.0);
+    harp_notes_check_pitch(harp, spare_at(harp, key), 0.0);
   }
   /* But by the same key it is played again. */
   harp_note_on(harp, 3, KEY + 1, 100);
@@ -92,16 +92,16 @@ static void a_guest_that_rings_is_left_alone(void** state) {
 
 static void a_key_that_is_up_is_taken_over(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   harp_pedal(harp, 2, 1.0);
   harp_bend(harp, 3, 2.0);
   harp_note_on(harp, 2, KEY, 100);
   harp_note_off(harp, 2, KEY);
   harp_note_on(harp, 3, KEY, 100);
   assert_int_equal(harp_report(harp).n_strings, 1);
-  channels_check_pitch(harp, &harp->strings[KEY], 2.0);
+  harp_notes_check_pitch(harp, &harp->strings[KEY], 2.0);
   harp_note_off(harp, 3, KEY);
-  channels_check_decay(harp, &harp->strings[KEY], CHANNELS_RELEASE_S);
+  harp_notes_check_decay(harp, &harp->strings[KEY], HARP_NOTES_RELEASE_S);
   harp_free(harp);
 }
 
@@ -109,7 +109,7 @@ static void a_key_that_is_up_is_taken_over(void** state) {
  * are. */
 static void when_spare_strings_run_out_none_is_stolen(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     for (uint32_t key = KEY; key < KEY + 3; ++key) {
       harp_note_on(harp, channel, key, 100);
@@ -140,7 +140,7 @@ static uint32_t n_holders(const HarpString* string) {
 /* With no spare string left, the last channels share the string of the key. */
 static void a_shared_string_sounds_until_the_last_lets_go(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     for (uint32_t key = KEY; key < KEY + 3; ++key) {
       harp_note_on(harp, channel, key, 100);
@@ -151,7 +151,7 @@ static void a_shared_string_sounds_until_the_last_lets_go(void** state) {
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     const bool is_last = n_holders(shared) == 1 && harp_channels_holds(shared, channel);
     harp_note_off(harp, channel, KEY);
-    channels_check_decay(harp, shared, is_last ? CHANNELS_RELEASE_S : channels_open_s(KEY));
+    harp_notes_check_decay(harp, shared, is_last ? HARP_NOTES_RELEASE_S : harp_notes_open_s(KEY));
     if (is_last) {
       harp_free(harp);
       return;
@@ -166,7 +166,7 @@ static void a_channel_has_a_gain_of_its_own(void** state) {
   enum { QUIET = 1, LOUD = 4, OTHER_KEY = KEY + 7 };
   static float alone[2][RATE];
   for (int is_tied = 0; is_tied < 2; ++is_tied) {
-    HarpPatch patch = channels_patch();
+    HarpPatch patch = harp_notes_patch();
     patch.resonance = is_tied ? 1e-4 : 0.0;
     Harp* const harp = harps_new(RATE, &patch);
     Harp* const first = harps_new(RATE, &patch);
@@ -197,8 +197,8 @@ static void a_channel_has_a_gain_of_its_own(void** state) {
 static void a_gain_moves_in_a_straight_line(void** state) {
   (void)state;
   static float as_it_is[RATE];
-  Harp* const harp = channels_harp();
-  Harp* const still = channels_harp();
+  Harp* const harp = harp_notes_harp();
+  Harp* const still = harp_notes_harp();
   harp_note_on(harp, 2, KEY, 100);
   harp_note_on(still, 2, KEY, 100);
   harps_run(harp, 1000, NULL, NULL);
@@ -219,12 +219,12 @@ static void a_gain_moves_in_a_straight_line(void** state) {
 
 static void a_spare_string_can_have_any_key_in_turn(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   for (uint32_t key = 30; key < 100; key += 7) {
     harp_note_on(harp, 2, key, 100);
     harp_note_on(harp, 3, key, 100);
-    channels_check_pitch(harp, spare_at(harp, key), 0.0);
-    channels_check_decay(harp, spare_at(harp, key), channels_open_s(key));
+    harp_notes_check_pitch(harp, spare_at(harp, key), 0.0);
+    harp_notes_check_decay(harp, spare_at(harp, key), harp_notes_open_s(key));
     harp_silence(harp);
     harps_run(harp, RATE / 2, NULL, NULL);
     assert_int_equal(harp_report(harp).n_strings, 0);
@@ -234,7 +234,7 @@ static void a_spare_string_can_have_any_key_in_turn(void** state) {
 
 static void what_is_let_go_keeps_its_touch_but_not_its_pedal(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   const HarpString* const held = &harp->strings[KEY + 5];
   const HarpString* const string = &harp->strings[KEY];
   harp_pedal(harp, 2, 1.0);
@@ -243,22 +243,22 @@ static void what_is_let_go_keeps_its_touch_but_not_its_pedal(void** state) {
   harp_note_on(harp, 2, KEY + 5, 100);
   harp_note_off(harp, 2, KEY);
   harp_bend(harp, 2, 2.0);
-  channels_check_pitch(harp, string, 2.0);
+  harp_notes_check_pitch(harp, string, 2.0);
   harp_let_go(harp, 2);
   harp_bend(harp, 2, 3.0);
-  channels_check_pitch(harp, string, 2.0);
-  channels_check_pitch(harp, held, 3.0);
+  harp_notes_check_pitch(harp, string, 2.0);
+  harp_notes_check_pitch(harp, held, 3.0);
   harp_pedal(harp, 2, 0.0);
-  channels_check_decay(harp, string, CHANNELS_RELEASE_S);
+  harp_notes_check_decay(harp, string, HARP_NOTES_RELEASE_S);
   harp_note_on(harp, 2, KEY, 100);
   harp_bend(harp, 2, 4.0);
-  channels_check_pitch(harp, string, 4.0);
+  harp_notes_check_pitch(harp, string, 4.0);
   harp_free(harp);
 }
 
 static void a_reset_harp_knows_no_channel(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   harp_note_on(harp, 5, KEY, 100);
   harp_note_on(harp, 6, KEY, 100);
   harp_bend(harp, 5, 3.0);
@@ -266,9 +266,9 @@ static void a_reset_harp_knows_no_channel(void** state) {
   harp_pedal(harp, 0, 1.0);
   harp_set_gain(harp, 0, 0.1);
   harp_sostenuto(harp, 5, true);
-  const HarpPatch plain = channels_patch();
+  const HarpPatch plain = harp_notes_patch();
   harps_restart(harp, &plain);
-  Harp* const fresh = channels_harp();
+  Harp* const fresh = harp_notes_harp();
   static float other[RATE];
   harp_note_on(harp, 0, KEY, 100);
   harp_note_on(fresh, 0, KEY, 100);

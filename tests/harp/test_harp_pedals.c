@@ -1,5 +1,5 @@
 /* The pedals under the hands that play the harp. */
-#include "tests/support/channels.h"
+#include "tests/support/harp_notes.h"
 #include "tests/support/harps.h"
 #include "tests/support/measure.h"
 
@@ -11,23 +11,24 @@
 
 #include <cmocka.h>
 
-enum { RATE = CHANNELS_RATE, KEY = 57 };
+enum { RATE = HARP_NOTES_RATE, KEY = 57 };
 
 static float left[RATE];
 
 static void a_pedal_in_part_damps_in_part(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   const HarpString* const string = &harp->strings[KEY];
   double last_s = 0.0;
   harp_note_on(harp, 0, KEY, 100);
   harp_note_off(harp, 0, KEY);
   for (int step = 0; step <= 4; ++step) {
     const double lift = 0.25 * step;
-    const double tau_s = CHANNELS_RELEASE_S * pow(channels_open_s(KEY) / CHANNELS_RELEASE_S, lift);
+    const double tau_s =
+        HARP_NOTES_RELEASE_S * pow(harp_notes_open_s(KEY) / HARP_NOTES_RELEASE_S, lift);
     harp_pedal(harp, 0, lift);
     assert_true(tau_s > last_s);
-    channels_check_decay(harp, string, tau_s);
+    harp_notes_check_decay(harp, string, tau_s);
     last_s = tau_s;
   }
   harp_free(harp);
@@ -36,32 +37,32 @@ static void a_pedal_in_part_damps_in_part(void** state) {
 /* Nor does one that would not damp it make it ring for longer. */
 static void a_damper_in_part_never_lengthens(void** state) {
   (void)state;
-  HarpPatch slow = channels_patch();
+  HarpPatch slow = harp_notes_patch();
   slow.string.release_s = 10.0;
   Harp* const harp = harps_new(RATE, &slow);
   harp_note_on(harp, 0, KEY, 100);
   harp_note_off(harp, 0, KEY);
   harp_pedal(harp, 0, 0.5);
-  channels_check_decay(harp, &harp->strings[KEY], channels_open_s(KEY));
+  harp_notes_check_decay(harp, &harp->strings[KEY], harp_notes_open_s(KEY));
   harp_free(harp);
 }
 
 static void a_pedal_is_its_hands_own(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   harp_pedal(harp, 2, 1.0);
   harp_note_on(harp, 2, KEY, 100);
   harp_note_on(harp, 3, KEY + 1, 100);
   harp_note_off(harp, 2, KEY);
   harp_note_off(harp, 3, KEY + 1);
-  channels_check_decay(harp, &harp->strings[KEY], channels_open_s(KEY));
-  channels_check_decay(harp, &harp->strings[KEY + 1], CHANNELS_RELEASE_S);
+  harp_notes_check_decay(harp, &harp->strings[KEY], harp_notes_open_s(KEY));
+  harp_notes_check_decay(harp, &harp->strings[KEY + 1], HARP_NOTES_RELEASE_S);
   harp_free(harp);
 }
 
 static void sostenuto_holds_what_was_down(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   const HarpString* const caught = &harp->strings[KEY];
   const HarpString* const later = &harp->strings[KEY + 2];
   harp_note_on(harp, 0, KEY, 100);
@@ -69,48 +70,48 @@ static void sostenuto_holds_what_was_down(void** state) {
   harp_note_on(harp, 0, KEY + 2, 100);
   harp_note_off(harp, 0, KEY);
   harp_note_off(harp, 0, KEY + 2);
-  channels_check_decay(harp, caught, channels_open_s(KEY));
-  channels_check_decay(harp, later, CHANNELS_RELEASE_S);
+  harp_notes_check_decay(harp, caught, harp_notes_open_s(KEY));
+  harp_notes_check_decay(harp, later, HARP_NOTES_RELEASE_S);
   /* Said again it catches nothing more, and a key played again is not let go by it. */
   harp_note_on(harp, 0, KEY + 2, 100);
   harp_sostenuto(harp, 0, true);
   harp_note_off(harp, 0, KEY + 2);
-  channels_check_decay(harp, later, CHANNELS_RELEASE_S);
+  harp_notes_check_decay(harp, later, HARP_NOTES_RELEASE_S);
   harp_sostenuto(harp, 0, false);
-  channels_check_decay(harp, caught, CHANNELS_RELEASE_S);
+  harp_notes_check_decay(harp, caught, HARP_NOTES_RELEASE_S);
   /* What another hand takes over is that hand's. */
   harp_note_on(harp, 0, KEY, 100);
   harp_sostenuto(harp, 0, true);
   harp_note_off(harp, 0, KEY);
   harp_note_on(harp, 1, KEY, 100);
   harp_note_off(harp, 1, KEY);
-  channels_check_decay(harp, caught, CHANNELS_RELEASE_S);
+  harp_notes_check_decay(harp, caught, HARP_NOTES_RELEASE_S);
   /* And all sound off lets the pedal up. */
   harp_silence(harp);
   harp_note_on(harp, 0, KEY, 100);
   harp_sostenuto(harp, 0, true);
   harp_note_off(harp, 0, KEY);
-  channels_check_decay(harp, caught, channels_open_s(KEY));
+  harp_notes_check_decay(harp, caught, harp_notes_open_s(KEY));
   harp_free(harp);
 }
 
 static void pedals_hold_together(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   harp_note_on(harp, 0, KEY, 100);
   harp_sostenuto(harp, 0, true);
   harp_pedal(harp, 0, 1.0);
   harp_note_off(harp, 0, KEY);
   harp_sostenuto(harp, 0, false);
-  channels_check_decay(harp, &harp->strings[KEY], channels_open_s(KEY));
+  harp_notes_check_decay(harp, &harp->strings[KEY], harp_notes_open_s(KEY));
   harp_sostenuto(harp, 0, true);
   harp_pedal(harp, 0, 0.0);
-  channels_check_decay(harp, &harp->strings[KEY], CHANNELS_RELEASE_S);
+  harp_notes_check_decay(harp, &harp->strings[KEY], HARP_NOTES_RELEASE_S);
   harp_free(harp);
 }
 
 static double loudness(Harp* harp, double softness) {
-  const HarpPatch plain = channels_patch();
+  const HarpPatch plain = harp_notes_patch();
   harps_restart(harp, &plain);
   harp_soften(harp, 0, softness);
   harp_note_on(harp, 0, KEY, 100);
@@ -120,7 +121,7 @@ static double loudness(Harp* harp, double softness) {
 
 static void the_soft_pedal_softens_the_next_notes(void** state) {
   (void)state;
-  Harp* const harp = channels_harp();
+  Harp* const harp = harp_notes_harp();
   const double loud = loudness(harp, 0.0);
   const double half = loudness(harp, 0.5);
   const double soft = loudness(harp, 1.0);

@@ -11,7 +11,7 @@ system=$HOOKE_SOURCE/.waf-cache/$arm
 
 # Tests of core/ which an emulator, some 25 times as slow, has done in a minute. test_chain is the one in which each kernel
 # agrees with a dense oracle.
-core='status ramp pickup limiter pole pole_limits pole_plane tuning chain chain_calls chain_dither chain_whole chain_sums
+core='status line pickup limiter pole pole_limits pole_plane tuning chain chain_calls chain_dither chain_fixed chain_sums
   chain_together chain_settle network_graph scale_text'
 
 only_long 'building for ARM64 and Windows'

@@ -47,7 +47,7 @@ static ChainSums sums_of(const double* x, const double* u, uint32_t n) {
     sums.uu += u[i] * u[i];
   }
   for (uint32_t i = 0; i < n; ++i) {
-    sums.bow += square(bend(v, i + 2));
+    sums.curvature += square(bend(v, i + 2));
     bow[i + 2] = bend(y, i + 2);
   }
   for (uint32_t i = 2; i < n + 3; ++i) {
@@ -58,8 +58,12 @@ static ChainSums sums_of(const double* x, const double* u, uint32_t n) {
 }
 
 static double difference(ChainSums a, ChainSums b) {
-  const double all[][2] = {{a.xx, b.xx},       {a.uu, b.uu},   {a.slope, b.slope},
-                           {a.twist, b.twist}, {a.bow, b.bow}, {a.xu + b.uu, b.xu + b.uu}};
+  const double all[][2] = {{a.xx, b.xx},
+                           {a.uu, b.uu},
+                           {a.slope, b.slope},
+                           {a.twist, b.twist},
+                           {a.curvature, b.curvature},
+                           {a.xu + b.uu, b.xu + b.uu}};
   double worst = 0.0;
   for (size_t s = 0; s < sizeof(all) / sizeof(all[0]); ++s) {
     worst = fmax(worst, fabs(all[s][0] / all[s][1] - 1.0));
@@ -132,7 +136,7 @@ static void sums_of_a_round_shape_are_its_modes(void** state) {
         worst = fmax(worst, fabs(sums.xu / (-3e-4 * half) - 1.0));
         worst = fmax(worst, fabs(sums.uu / (1e-6 * half) - 1.0));
         worst = fmax(worst, fabs(sums.slope / (lambda * y) - 1.0));
-        worst_bent = fmax(worst_bent, fabs(sums.bow / (square(lambda) * 1e-6 * half) - 1.0));
+        worst_bent = fmax(worst_bent, fabs(sums.curvature / (square(lambda) * 1e-6 * half) - 1.0));
         worst_bent = fmax(worst_bent, fabs(sums.twist / (square(lambda) * lambda * y) - 1.0));
       }
       assert_within(names[numbers], worst, 1e-5);

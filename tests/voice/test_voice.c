@@ -194,7 +194,7 @@ static void its_energy_is_what_played_it(void** state) {
         break;
       case 2:
         voice_bow(&voice, (Stroke){0.12, 0.5, 0.1, 0.02, 0.02}, &aim.open);
-        voice.ear.is_active = false; /* It would move the string */
+        voice.intonation.is_active = false; /* It would move the string */
         break;
       case 3:
         voice_lift_bow(&voice);
