@@ -10,7 +10,8 @@
    because its poles solve  z² + (a + g − 2) z + (1 − g) = 0  ([MQ09] (23)).
 
    [MQ09] is D. Morgan and S. Qiao, "Analysis of Damped Mass-Spring Systems for Sound Synthesis",
-   2009.  The equations are given here in the corrected form; the README lists what was corrected.
+   2009.  The equations are given here in the corrected form; doc/physics.md lists what was
+   corrected.
 
    Thread: any.  All of this room is real-time safe and allocates nothing.
 */
