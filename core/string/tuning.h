@@ -61,7 +61,8 @@ typedef struct {
   double rate_hz; /**< Steps per second [Hz], > 0 */
   Tone tone;      /**< Of the fundamental: 0 < F < rate/2 [Hz], τ > 0 [s] */
   double loss;    /**< Share s of the fundamental's damping that sits between masses, 0 to 1 */
-  double inharmonicity; /**< B ≥ 0 of f_k ≈ k f1 √((1 + B k²)/(1 + B)); 0: perfectly flexible */
+  double inharmonicity; /**< B ≥ 0 of f_k = k f1 √((1 + B k²)/(1 + B)); 0 is a perfectly flexible
+                            string */
   Partials partials;
 } TuningTarget;
 
