@@ -2,8 +2,8 @@
 
 #include "plugin/tuner.h"
 
+#include "plugin/atom_object.h"
 #include "plugin/events.h"
-#include "plugin/objects.h"
 
 #include <lv2/core/lv2_util.h>
 
@@ -30,7 +30,7 @@ static LV2_URID urid_of(const Property* property, LV2_URID type) {
 /* A message that names no subject is meant for whom it reaches. */
 static bool is_for_us(const Tuner* tuner, const uint8_t* body, uint32_t n_bytes) {
   Property subject;
-  return !objects_find(body, n_bytes, tuner->urids.patch_subject, &subject) ||
+  return !atom_object_find(body, n_bytes, tuner->urids.patch_subject, &subject) ||
          urid_of(&subject, tuner->urids.atom_URID) == tuner->urids.plugin;
 }
 
@@ -51,8 +51,8 @@ static void want(Tuner* tuner, TunerFile file, const Property* value) {
 static void hear_set(Tuner* tuner, const uint8_t* body, uint32_t n_bytes) {
   Property property;
   Property value;
-  if (!objects_find(body, n_bytes, tuner->urids.patch_property, &property) ||
-      !objects_find(body, n_bytes, tuner->urids.patch_value, &value)) {
+  if (!atom_object_find(body, n_bytes, tuner->urids.patch_property, &property) ||
+      !atom_object_find(body, n_bytes, tuner->urids.patch_value, &value)) {
     return;
   }
   for (int f = 0; f < TUNER_N_FILES; ++f) {
@@ -65,7 +65,7 @@ static void hear_set(Tuner* tuner, const uint8_t* body, uint32_t n_bytes) {
 /* Who asks for nothing in particular asks for all. */
 static void hear_get(Tuner* tuner, const uint8_t* body, uint32_t n_bytes) {
   Property property;
-  const bool is_one = objects_find(body, n_bytes, tuner->urids.patch_property, &property);
+  const bool is_one = atom_object_find(body, n_bytes, tuner->urids.patch_property, &property);
   for (int f = 0; f < TUNER_N_FILES; ++f) {
     if (!is_one || urid_of(&property, tuner->urids.atom_URID) == tuner->urids.files[f]) {
       tuner->is_due[f] = true;
@@ -149,7 +149,7 @@ const double* tuner_take(Tuner* tuner) {
 
 void tuner_hear(Tuner* tuner, LV2_URID type, const uint8_t* body, uint32_t n_bytes) {
   const TunerUrids* const urids = &tuner->urids;
-  const LV2_URID class = objects_class(body, n_bytes);
+  const LV2_URID class = atom_object_class(body, n_bytes);
   const bool is_object =
       type == urids->atom_Object || type == urids->atom_Blank || type == urids->atom_Resource;
   if (!is_object || !is_for_us(tuner, body, n_bytes)) {

@@ -1,11 +1,10 @@
-#ifndef CORE_ALIGNED_H
-#define CORE_ALIGNED_H
-
 /**
    Memory that begins where a vector may, for chains.
 
    It is C11's aligned_alloc(), which Windows does not have: there, such memory is not for free().
 */
+#ifndef HOOKE_CORE_BASE_ALIGNED_H
+#define HOOKE_CORE_BASE_ALIGNED_H
 
 #include <stddef.h>
 #include <stdlib.h>

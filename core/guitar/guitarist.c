@@ -90,6 +90,26 @@ static void move_sostenuto(Guitarist* guitarist, uint32_t channel, bool is_down)
   c->is_sostenuto_down = is_down;
 }
 
+static void lean_on_key(Guitarist* guitarist, const GuitaristEvent* event) {
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    const GuitaristHand hand = guitarist_chord_hand(guitarist, s);
+    const GuitaristNote* const note = &hand.string->note;
+    if (hand.string->hold == GUITARIST_KEY && note->channel == event->channel &&
+        note->key == event->key) {
+      hand.string->leaned_on = event->amount;
+      guitarist_string_feel(hand, event->channel);
+    }
+  }
+}
+
+static void leave_what_is_up(Guitarist* guitarist, uint32_t channel) {
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    GuitaristString* const string = &guitarist->strings[s];
+    const bool is_up = string->note.channel == channel && string->hold != GUITARIST_KEY;
+    string->is_let_go = string->is_let_go || (string->has_played && is_up);
+  }
+}
+
 static void act(Guitarist* guitarist, const GuitaristEvent* event) {
   switch (event->verb) {
   case GUITARIST_NOTE_ON:
@@ -105,6 +125,12 @@ static void act(Guitarist* guitarist, const GuitaristEvent* event) {
   case GUITARIST_SOSTENUTO:
     move_sostenuto(guitarist, event->channel, event->value > 0);
     look_at_pedals(guitarist);
+    break;
+  case GUITARIST_PRESS_KEY:
+    lean_on_key(guitarist, event);
+    break;
+  case GUITARIST_LET_GO:
+    leave_what_is_up(guitarist, event->channel);
     break;
   }
 }
@@ -227,13 +253,15 @@ void guitarist_note_on(Guitarist* guitarist, uint32_t channel, uint32_t key, uin
     guitarist_note_off(guitarist, channel, key);
   } else if (is_of_midi(channel, key)) {
     const uint32_t value = velocity < MOST_VELOCITY ? velocity : MOST_VELOCITY;
-    take(guitarist, (GuitaristEvent){GUITARIST_NOTE_ON, channel, key, value, 0, 0});
+    take(guitarist, (GuitaristEvent){
+                        .verb = GUITARIST_NOTE_ON, .channel = channel, .key = key, .value = value});
   }
 }
 
 void guitarist_note_off(Guitarist* guitarist, uint32_t channel, uint32_t key) {
   if (is_of_midi(channel, key)) {
-    take(guitarist, (GuitaristEvent){GUITARIST_NOTE_OFF, channel, key, 0, 0, 0});
+    take(guitarist,
+         (GuitaristEvent){.verb = GUITARIST_NOTE_OFF, .channel = channel, .key = key, .value = 0});
   }
 }
 
@@ -267,10 +295,14 @@ void guitarist_gesture(Guitarist* guitarist, uint32_t channel, Gesture gesture, 
     lay_palm(guitarist);
     break;
   case GESTURE_DAMPER:
-    take(guitarist, (GuitaristEvent){GUITARIST_PEDAL, channel, 0, value >= 1.0, 0, 0});
+    take(guitarist,
+         (GuitaristEvent){
+             .verb = GUITARIST_PEDAL, .channel = channel, .key = 0, .value = value >= 1.0});
     break;
   case GESTURE_SOSTENUTO:
-    take(guitarist, (GuitaristEvent){GUITARIST_SOSTENUTO, channel, 0, value > 0.0, 0, 0});
+    take(guitarist,
+         (GuitaristEvent){
+             .verb = GUITARIST_SOSTENUTO, .channel = channel, .key = 0, .value = value > 0.0});
     break;
   case GESTURE_BREATH:
   case N_GESTURES:
@@ -279,27 +311,24 @@ void guitarist_gesture(Guitarist* guitarist, uint32_t channel, Gesture gesture, 
 }
 
 void guitarist_press_key(Guitarist* guitarist, uint32_t channel, uint32_t key, double pressure) {
-  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
-    const GuitaristHand hand = guitarist_chord_hand(guitarist, s);
-    const GuitaristNote* const note = &hand.string->note;
-    if (hand.string->hold == GUITARIST_KEY && note->channel == channel && note->key == key) {
-      hand.string->leaned_on = pressure;
-      guitarist_string_feel(hand, channel);
-    }
+  if (is_of_midi(channel, key)) {
+    take(guitarist,
+         (GuitaristEvent){
+             .verb = GUITARIST_PRESS_KEY, .channel = channel, .key = key, .amount = pressure});
   }
 }
 
 void guitarist_let_go(Guitarist* guitarist, uint32_t channel) {
-  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
-    GuitaristString* const string = &guitarist->strings[s];
-    const bool is_up = string->note.channel == channel && string->hold != GUITARIST_KEY;
-    string->is_let_go = string->is_let_go || (string->has_played && is_up);
+  if (is_of_midi(channel, 0)) {
+    take(guitarist, (GuitaristEvent){.verb = GUITARIST_LET_GO, .channel = channel});
   }
 }
 
 void guitarist_all_notes_off(Guitarist* guitarist, uint32_t channel) {
   if (is_of_midi(channel, 0)) {
-    take(guitarist, (GuitaristEvent){GUITARIST_NOTE_OFF, channel, GUITARIST_ANY_KEY, 0, 0, 0});
+    take(guitarist,
+         (GuitaristEvent){
+             .verb = GUITARIST_NOTE_OFF, .channel = channel, .key = GUITARIST_ANY_KEY, .value = 0});
   }
 }
 

@@ -28,9 +28,11 @@ typedef struct {
 /** The kinds of events that wait for the end of their frame. */
 typedef enum {
   GUITARIST_NOTE_ON,
-  GUITARIST_NOTE_OFF, /**< Of one key or of all */
-  GUITARIST_PEDAL,    /**< `value`: it is down */
-  GUITARIST_SOSTENUTO /**< The same */
+  GUITARIST_NOTE_OFF,  /**< Of one key or of all */
+  GUITARIST_PEDAL,     /**< `value`: it is down */
+  GUITARIST_SOSTENUTO, /**< The same */
+  GUITARIST_PRESS_KEY, /**< `amount`: how hard */
+  GUITARIST_LET_GO     /**< What it has played and whose keys are up */
 } GuitaristVerb;
 
 /** What a player did. */
@@ -41,6 +43,7 @@ typedef struct {
   uint32_t value;  /**< Velocity, or whether a pedal is down */
   uint32_t string; /**< That a note on is played on, once that is decided */
   uint32_t stroke; /**< How many strings of its strum are plucked before it */
+  double amount;   /**< Pressure, 0 to 1 */
 } GuitaristEvent;
 
 /** The last chord that was struck. */

@@ -167,6 +167,8 @@ void guitarist_string_release(GuitaristHand hand, uint32_t channel, uint32_t key
   } else if (is_legato && string->note.is_hammered && string->n_waiting > 0) {
     pull_off(hand);
   } else {
+    string->leaned_on = 0.0;
+    guitarist_string_feel(hand, string->note.channel);
     guitarist_string_let_go(hand);
   }
 }

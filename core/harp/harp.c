@@ -162,13 +162,9 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   harp_string_play(string, pluck_of(harp, &harp->channels[channel], velocity), harp->n_gesture);
 }
 
-/* The channel lets go of the key; the last one to do so lifts it. */
-static void raise_key(Harp* harp, HarpString* string, uint32_t channel) {
+/* Its key is up: the damper falls, as far as it may. */
+static void raise_key(Harp* harp, HarpString* string) {
   const bool was_leaned_on = string->leaned_on > 0.0;
-  string->holders &= ~(1u << channel);
-  if (string->holders) {
-    return;
-  }
   string->leaned_on = 0.0;
   harp_string_lift(string);
   if (was_leaned_on || string->lift != harp_channels_lift(harp, string) ||
@@ -177,11 +173,32 @@ static void raise_key(Harp* harp, HarpString* string, uint32_t channel) {
   }
 }
 
+/* It is played by the first of the channels that hold it still. */
+static void hand_on(Harp* harp, HarpString* string) {
+  uint32_t channel = 0;
+  while (!harp_channels_holds(string, channel)) {
+    ++channel;
+  }
+  string->channel = channel;
+  string->touch = harp->channels[channel].touch;
+  retune(harp, string, harp->n_gesture);
+}
+
+/* A channel lets go of the key; the last one to do so lifts it. */
+static void release(Harp* harp, HarpString* string, uint32_t channel) {
+  string->holders &= ~(1u << channel);
+  if (!string->holders) {
+    raise_key(harp, string);
+  } else if (string->channel == channel) {
+    hand_on(harp, string);
+  }
+}
+
 void harp_note_off(Harp* harp, uint32_t channel, uint32_t key) {
   assert(channel < HARP_CHANNELS && key < HARP_KEYS);
   HarpString* const string = harp_channels_held(harp, channel, key);
   if (string) {
-    raise_key(harp, string, channel);
+    release(harp, string, channel);
   }
 }
 
@@ -258,18 +275,21 @@ void harp_set_gain(Harp* harp, uint32_t channel, double gain) {
 void harp_all_notes_off(Harp* harp, uint32_t channel) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     if (harp_channels_holds(&harp->strings[i], channel)) {
-      raise_key(harp, &harp->strings[i], channel);
+      release(harp, &harp->strings[i], channel);
     }
   }
 }
 
+/* What others hold goes on as theirs. */
 void harp_all_sound_off(Harp* harp, uint32_t channel) {
   harp->channels[channel].lift = 0.0;
   harp->channels[channel].is_sostenuto = false;
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    string->holders &= ~(1u << channel);
-    if (string->channel == channel) {
+    if (harp_channels_holds(string, channel)) {
+      release(harp, string, channel);
+    }
+    if (string->channel == channel && !string->holders) {
       string->is_caught = false;
       string->lift = 0.0;
       harp_string_choke(string, harp->n_gesture);

@@ -57,7 +57,8 @@ void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]);
 
 /**
    Key down: play its string.  A key that another channel holds is played on a spare string or, if
-   none is left, on the same; a string whose key is up is taken over.
+   none is left, on the same; a string whose key is up is taken over, if it rings as loud as the
+   channel plays.
 
    @param velocity  1 to 127, loudness as its square; harder plucks are a little brighter
 */

@@ -83,8 +83,8 @@ static void glide(Harp* harp) {
   HarpBridge* const bridge = &harp->bridge;
   bridge->spring = 0.0;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
-    Tie* const tie = &harp->awake[i]->voice.tie;
-    tie_advance(tie);
+    const Tie* const tie = &harp->awake[i]->voice.tie;
+    voice_advance_tie(&harp->awake[i]->voice);
     read_tie(&bridge->ends[i], tie);
     bridge->spring += tie->spring.value;
   }

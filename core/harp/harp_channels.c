@@ -24,12 +24,22 @@ HarpString* harp_channels_held(Harp* harp, uint32_t channel, uint32_t key) {
   return NULL;
 }
 
+static double gain_of(const Harp* harp, uint32_t channel) {
+  return harp->channels[channel].gain.goal;
+}
+
+/* Whether nobody holds it, and its motion is as loud with the channel as it is now. */
+static bool is_free_for(const Harp* harp, const HarpString* string, uint32_t channel) {
+  return !string->holders &&
+         (!string->voice.is_awake || gain_of(harp, string->channel) == gain_of(harp, channel));
+}
+
 /* A spare string for a key: one that rings at that key, or one at rest. */
-static HarpString* find_spare(Harp* harp, uint32_t key) {
+static HarpString* find_spare(Harp* harp, uint32_t channel, uint32_t key) {
   HarpString* found = NULL;
   for (uint32_t i = HARP_KEYS; i < HARP_STRINGS; ++i) {
     HarpString* const spare = &harp->strings[i];
-    if (!spare->holders && spare->voice.is_awake && spare->key == key) {
+    if (spare->voice.is_awake && spare->key == key && is_free_for(harp, spare, channel)) {
       return spare;
     }
     if (!spare->holders && !spare->voice.is_awake && !found) {
@@ -42,10 +52,10 @@ static HarpString* find_spare(Harp* harp, uint32_t key) {
 HarpString* harp_channels_take(Harp* harp, uint32_t channel, uint32_t key) {
   HarpString* const own = &harp->strings[key];
   HarpString* const held = harp_channels_held(harp, channel, key);
-  if (held || !own->holders) {
+  if (held || is_free_for(harp, own, channel)) {
     return held ? held : own;
   }
-  HarpString* const spare = find_spare(harp, key);
+  HarpString* const spare = find_spare(harp, channel, key);
   if (spare) {
     spare->key = key;
     spare->semitones = own->semitones;

@@ -17,7 +17,8 @@ bool harp_channels_holds(const HarpString* string, uint32_t channel);
 /** The string that a channel holds down at a key; NULL: none. */
 HarpString* harp_channels_held(Harp* harp, uint32_t channel, uint32_t key);
 
-/** The string that a channel is to play when it takes a key. */
+/** The string that a channel is to play when it takes a key.  What rings with another channel's
+ * gain is left alone while there is a spare string. */
 HarpString* harp_channels_take(Harp* harp, uint32_t channel, uint32_t key);
 
 /** The channel whose pedal lifts dampers the most. */

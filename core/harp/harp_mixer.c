@@ -83,17 +83,26 @@ static uint32_t gather(Harp* harp, const Reading* reading) {
   return gather_some(harp, n_tied, false, reading);
 }
 
-/* What a tap reads of all strings as they are. */
-static float read_now(const Harp* harp, uint32_t n_parts, uint32_t t) {
+/* What a tap reads of all strings of a bus as they are. */
+static float read_now(const Harp* harp, uint32_t n_parts, uint32_t bus, uint32_t t) {
   float sum = 0.0f;
   for (uint32_t i = 0; i < n_parts; ++i) {
     const ChainPart* const part = &harp->parts[i];
     const ChainTap* const tap = &part->taps[t];
-    const float gain = (float)harp->channels[harp->awake[i]->channel].gain.value;
-    sum += gain * (tap->weight[0] * chain_position(part->chain, tap->mass[0]) +
-                   tap->weight[1] * chain_position(part->chain, tap->mass[1]));
+    if (harp->buses[i] == bus) {
+      sum += tap->weight[0] * chain_position(part->chain, tap->mass[0]) +
+             tap->weight[1] * chain_position(part->chain, tap->mass[1]);
+    }
   }
   return sum;
+}
+
+static uint32_t channels_apart(const Harp* harp) {
+  uint32_t apart = 0;
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    apart |= (uint32_t)(bus_of(harp, channel) > 0) << channel;
+  }
+  return apart;
 }
 
 static bool are_same(const Reading* a, const Reading* b) {
@@ -106,10 +115,15 @@ static bool are_same(const Reading* a, const Reading* b) {
 
 /* Who begins to read velocities must know where the strings were. */
 static void take_reading(Harp* harp, const Reading* reading, uint32_t n_parts) {
-  if (!are_same(reading, &harp->reading)) {
-    harp->reading = *reading;
+  const uint32_t apart = channels_apart(harp);
+  if (apart == harp->apart && are_same(reading, &harp->reading)) {
+    return;
+  }
+  harp->reading = *reading;
+  harp->apart = apart;
+  for (uint32_t bus = 0; bus < HARP_BUSES; ++bus) {
     for (uint32_t t = 0; t < reading->n_taps; ++t) {
-      harp->before[t] = read_now(harp, n_parts, t);
+      harp->before[bus][t] = read_now(harp, n_parts, bus, t);
     }
   }
 }
@@ -228,11 +242,20 @@ static void clear_buses(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_
   }
 }
 
-static void add_bus(Harp* harp, uint32_t channel, uint32_t n_frames, uint32_t n_taps) {
+static void differentiate(Harp* harp, uint32_t bus, const Reading* reading, uint32_t n_frames) {
+  for (uint32_t t = 0; t < reading->n_taps; ++t) {
+    if (reading->at[t].type == PICKUP_VELOCITY) {
+      pickup_differentiate(harp->mix[bus][t], n_frames, &harp->before[bus][t]);
+    }
+  }
+}
+
+static void add_bus(Harp* harp, uint32_t channel, const Reading* reading, uint32_t n_frames) {
   Line* const gain = &harp->channels[channel].gain;
-  for (uint32_t n = 0; n < n_frames && (n_taps > 0 || gain->n_left > 0); ++n) {
+  differentiate(harp, 1 + channel, reading, n_frames);
+  for (uint32_t n = 0; n < n_frames; ++n) {
     const float now = (float)line_next(gain);
-    for (uint32_t t = 0; t < n_taps; ++t) {
+    for (uint32_t t = 0; t < reading->n_taps; ++t) {
       harp->mix[0][t][n] += now * harp->mix[1 + channel][t][n];
     }
   }
@@ -240,13 +263,20 @@ static void add_bus(Harp* harp, uint32_t channel, uint32_t n_frames, uint32_t n_
 
 /* Add what each channel with a gain of its own plays to what the others do; a gain that nothing is
  * heard with goes on all the same. */
-static void add_buses(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps) {
+static void add_buses(Harp* harp, uint32_t n_parts, const Reading* reading, uint32_t n_frames) {
   bool is_heard[HARP_BUSES] = {false};
   for (uint32_t i = 0; i < n_parts; ++i) {
     is_heard[harp->buses[i]] = true;
   }
+  differentiate(harp, 0, reading, n_frames);
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
-    add_bus(harp, channel, n_frames, is_heard[1 + channel] ? n_taps : 0);
+    Line* const gain = &harp->channels[channel].gain;
+    if (is_heard[1 + channel]) {
+      add_bus(harp, channel, reading, n_frames);
+    }
+    for (uint32_t n = 0; !is_heard[1 + channel] && n < n_frames && gain->n_left > 0; ++n) {
+      (void)line_next(gain);
+    }
   }
 }
 
@@ -259,13 +289,8 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
   take_reading(harp, &reading, n_parts);
   const uint32_t n = harp_bridge_run(harp, n_most, reading.n_taps);
   run_strings(harp, n_parts, n, reading.n_taps);
-  add_buses(harp, n_parts, n, reading.n_taps);
+  add_buses(harp, n_parts, &reading, n);
   harp_bridge_pass(harp, n);
-  for (uint32_t t = 0; t < reading.n_taps; ++t) {
-    if (reading.at[t].type == PICKUP_VELOCITY) {
-      pickup_differentiate(harp->mix[0][t], n, &harp->before[t]);
-    }
-  }
   mix_down(harp, &reading, n, left, right);
   block_dc(harp, n, left, right);
   return n;

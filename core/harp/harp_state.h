@@ -31,7 +31,7 @@ typedef struct {
 
 enum {
   HARP_BRIDGE_FRAMES = 64,
-  HARP_BRIDGE_STRINGS = 160,
+  HARP_BRIDGE_STRINGS = HARP_STRINGS,
   HARP_BRIDGE_WAKES = 2, /**< Strings that wake at a time */
   HARP_BRIDGE_LOWEST = 21,
   HARP_BRIDGE_HIGHEST = 108 /**< Keys whose strings wake */
@@ -87,10 +87,12 @@ typedef struct Harp {
   uint8_t buses[HARP_STRINGS];      /**< Where each of them is heard */
   ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
   HarpBridge bridge;
-  bool is_bowed;                /**< Whether a note has been bowed since all was still */
-  double dc[2];                 /**< What stands still on each side, once a note has been bowed */
-  Reading reading;              /**< How they were read last */
-  float before[CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is differentiated */
+  bool is_bowed;   /**< Whether a note has been bowed since all was still */
+  double dc[2];    /**< What stands still on each side, once a note has been bowed */
+  Reading reading; /**< How they were read last */
+  uint32_t apart;  /**< The channels that had a bus of their own then, a bit each */
+  float before[HARP_BUSES][CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is
+                                               differentiated */
   float mix[HARP_BUSES][CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;
 

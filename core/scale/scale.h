@@ -32,15 +32,15 @@
 #include <stdint.h>
 
 enum {
-  SCALE_KEYS = 128,           ///< Of MIDI
-  SCALE_MAX_NOTES = 1024,     ///< In a scale
-  SCALE_MAX_PATTERN = 1024,   ///< Entries of a map
-  SCALE_MAX_DEGREE = 1000000, ///< In a map, up and down
-  SCALE_MAX_CENTS = 120000,   ///< Of a pitch, up and down
-  SCALE_MAX_BYTES = 1 << 20,  ///< In a text
-  SCALE_UNMAPPED = INT32_MIN, ///< The degree of a key without one
-  SCALE_FOUND_SIZE = 64,      ///< Room in ScaleError [bytes]
-  SCALE_EXPECTED_SIZE = 96    ///< Room in ScaleError [bytes]
+  SCALE_KEYS = 128,           /**< Of MIDI */
+  SCALE_MAX_NOTES = 1024,     /**< In a scale */
+  SCALE_MAX_PATTERN = 1024,   /**< Entries of a map */
+  SCALE_MAX_DEGREE = 1000000, /**< In a map, up and down */
+  SCALE_MAX_CENTS = 120000,   /**< Of a pitch, up and down */
+  SCALE_MAX_BYTES = 1 << 20,  /**< In a text */
+  SCALE_UNMAPPED = INT32_MIN, /**< The degree of a key without one */
+  SCALE_FOUND_SIZE = 64,      /**< Room in ScaleError [bytes] */
+  SCALE_EXPECTED_SIZE = 96    /**< Room in ScaleError [bytes] */
 };
 
 /** Largest number above or below the slash of a ratio. */
@@ -52,32 +52,33 @@ enum {
 
 /** An interval, 2^(cents / 1200) · over / under. */
 typedef struct {
-  double cents; ///< 0 for a ratio
-  double over;  ///< > 0; 1 for cents
-  double under; ///< > 0; 1 for cents
+  double cents; /**< 0 for a ratio */
+  double over;  /**< > 0; 1 for cents */
+  double under; /**< > 0; 1 for cents */
 } ScalePitch;
 
 /** A scale; all zeros is one without notes. */
 typedef struct {
-  uint32_t n_notes;                    ///< 0 to SCALE_MAX_NOTES; 0: every degree is 1/1
-  ScalePitch pitches[SCALE_MAX_NOTES]; ///< Of degrees 1 to n_notes, in any order, the period last
+  uint32_t n_notes; /**< 0 to SCALE_MAX_NOTES; 0: every degree is 1/1 */
+  ScalePitch
+      pitches[SCALE_MAX_NOTES]; /**< Of degrees 1 to n_notes, in any order, the period last */
 } Scale;
 
 /** A keyboard mapping. */
 typedef struct {
-  uint32_t n_entries;                 ///< Keys in the pattern; 0: every key is a degree
-  uint32_t first_key;                 ///< Keys below are not retuned
-  uint32_t last_key;                  ///< Keys above are not retuned
-  uint32_t middle_key;                ///< Where the pattern begins
-  uint32_t reference_key;             ///< To have reference_hz; need not be retuned, but mapped
-  double reference_hz;                ///< SCALE_MIN_HZ to SCALE_MAX_HZ
-  int32_t octave_degree;              ///< Between a pattern and the next; 0: the scale's period
-  int32_t degrees[SCALE_MAX_PATTERN]; ///< Or SCALE_UNMAPPED
+  uint32_t n_entries;                 /**< Keys in the pattern; 0: every key is a degree */
+  uint32_t first_key;                 /**< Keys below are not retuned */
+  uint32_t last_key;                  /**< Keys above are not retuned */
+  uint32_t middle_key;                /**< Where the pattern begins */
+  uint32_t reference_key;             /**< To have reference_hz; need not be retuned, but mapped */
+  double reference_hz;                /**< SCALE_MIN_HZ to SCALE_MAX_HZ */
+  int32_t octave_degree;              /**< Between a pattern and the next; 0: the scale's period */
+  int32_t degrees[SCALE_MAX_PATTERN]; /**< Or SCALE_UNMAPPED */
 } ScaleMap;
 
 /** What is wrong with a text: "LINE: found FOUND, expected EXPECTED", in printable ASCII. */
 typedef struct {
-  unsigned line; ///< From 1
+  unsigned line; /**< From 1 */
   char found[SCALE_FOUND_SIZE];
   char expected[SCALE_EXPECTED_SIZE];
 } ScaleError;

@@ -13,18 +13,18 @@
 
 /** A place in a text. */
 typedef struct {
-  const char* at;       ///< In the line
-  const char* begin;    ///< Of the line, or of what is not blank in it
-  const char* line_end; ///< Behind the line, before its end mark
-  const char* next;     ///< Where the next line begins
-  const char* end;      ///< Behind the text
-  unsigned line;        ///< Its number, from 1; 0 before the first
-  ScaleError* error;    ///< Where messages go
+  const char* at;       /**< In the line */
+  const char* begin;    /**< Of the line, or of what is not blank in it */
+  const char* line_end; /**< Behind the line, before its end mark */
+  const char* next;     /**< Where the next line begins */
+  const char* end;      /**< Behind the text */
+  unsigned line;        /**< Its number, from 1; 0 before the first */
+  ScaleError* error;    /**< Where messages go */
 } ScaleText;
 
 /** A number as it is written. */
 typedef struct {
-  double value; ///< Of up to 19 digits, with at most two roundings; INFINITY if it is too large
+  double value; /**< Of up to 19 digits, with at most two roundings; INFINITY if it is too large */
   bool has_point;
 } ScaleNumber;
 

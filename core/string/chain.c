@@ -161,7 +161,7 @@ ChainWork chain_work(const ChainPart* part, uint32_t n_taps) {
       .cells = chain->cells,
       .n_masses = chain->n_masses,
       .n_cells = chain->n_cells,
-      .now = chain->numbers == CHAIN_FIXED ? &chain->whole : &chain->now,
+      .now = chain->numbers == CHAIN_FIXED ? &chain->fixed : &chain->now,
       .change = chain->change,
       .gain = &chain->gain,
       .fade = chain->fade,

@@ -13,7 +13,7 @@
    Numbers.  What is touched or moves is kept in floats.  Rounding changes what a string loses in a
    step by up to 3 in 10⁹, which is nothing to one that loses 1 in 10⁴; but one that loses 1 in 10⁶
    would die a part in a hundred too soon or too late.  So a string that is left alone and weakly
-   damped is put into whole numbers (core/string/chain_fixed.h), which do not drift, or if it is so
+   damped is put into fixed point (core/string/chain_fixed.h), which does not drift, or if it is so
    short or rings so long that their noise would be too near, into doubles: see chain_settle().
 
    Layout.  The string is cut into as many segments as the kernel has lanes, S cells each, one a
@@ -53,7 +53,7 @@ typedef struct {
   StringCoefs now;    /**< What the next step uses, while still */
   StringCoefs change; /**< What a step adds to it, while gliding */
   StringCoefs goal;   /**< Where a glide ends */
-  StringCoefs whole;  /**< CHAIN_FIXED: what the next step uses instead, see ChainFixed */
+  StringCoefs fixed;  /**< CHAIN_FIXED: what the next step uses instead, see ChainFixed */
   double gain;        /**< CHAIN_FIXED: of a number */
   double fade;        /**< CHAIN_FIXED: what a step makes of the gain */
   uint32_t chance;    /**< CHAIN_FIXED: where the dither is */
@@ -165,7 +165,7 @@ void chain_run_all(const ChainPart* parts,
    between frames: of each a loop and its work, which stand until the chain is touched otherwise,
    and after at most chain_stretch() frames chain_pass(). */
 
-/** Say whether something acts on it so; then it is not kept in whole numbers. */
+/** Say whether something acts on it so; then it is not kept in fixed point. */
 void chain_share(Chain* chain, bool is_shared);
 
 /** The loop for what the chain is now: nothing that it does not need is in it. */

@@ -1,5 +1,5 @@
 /**
-   A little noise for links before they are rounded to whole numbers.
+   A little noise for links before they are rounded to fixed point.
 
    The error of a rounded number repeats itself as the number does, and a wave on a string passes
    every link: where all partials are in step, so are the errors, and in a few seconds they carry

@@ -73,16 +73,16 @@ static double largest(StringCoefs c, uint32_t n_masses, ChainSums sums) {
 /* In each step each link errs by its dither and its rounding, 1/√12 of a number each, and by a part
  * of its own last place; over one time constant that adds up in a mode as the steps' square root.
  */
-static double noise_of(const ChainFixed* whole, uint32_t n_masses, ChainSums sums, Pole first) {
+static double noise_of(const ChainFixed* fixed, uint32_t n_masses, ChainSums sums, Pole first) {
   const double length = n_masses + 1.0;
-  const double k1 = whole->coefs.k1;
+  const double k1 = fixed->coefs.k1;
   const double link = k1 * sqrt(sums.slope / length);
-  const double error = 0.41 * hypot(whole->gain, 0x1p-24 * link);
+  const double error = 0.41 * hypot(fixed->gain, 0x1p-24 * link);
   const double amplitude = sqrt(2.0 / length * (sums.xx - sums.xu + sums.uu / first.a));
   return error * sqrt(2.0 / (length * first.g * k1)) / amplitude;
 }
 
-bool chain_fixed_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, ChainFixed* whole) {
+bool chain_fixed_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, ChainFixed* fixed) {
   const Pole first = tuning_mode(coefs, n_masses, 1);
   const double half_air = 0.5 * coefs.z0;
   if (!(first.g > 0.0) || !(half_air * half_air <= AUDIBLE_AIR * first.a)) {
@@ -97,6 +97,6 @@ bool chain_fixed_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, Ch
   }
   design.gain = size / FULL;
   design.noise = noise_of(&design, n_masses, sums, first);
-  *whole = design;
+  *fixed = design;
   return true;
 }

@@ -1,10 +1,10 @@
 /**
-   Strings in whole numbers: which coefficients they are stepped with, and how large the numbers
+   Strings in fixed point: which coefficients they are stepped with, and how large the numbers
    are.
 
    Floats lose count.  A position rounded to 24 bits forgets where it came from, and what is
    forgotten is energy: a string that should ring for a minute dies a part in a hundred too soon or
-   too late.  In whole numbers x ← x + u and u ← u + (link − link before) are exact and could be run
+   too late.  In fixed point x ← x + u and u ← u + (link − link before) are exact and could be run
    backwards; all that is rounded is a link, once, for both masses that it pulls.  So nothing
    drifts: what is left is a noise of less than half a number in each link, and a step costs what it
    does in floats.
@@ -29,7 +29,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** A string in whole numbers. */
+/** A string in fixed point. */
 typedef struct {
   StringCoefs coefs; /**< Of X; without z0 */
   double fade;       /**< ρ */
@@ -40,10 +40,10 @@ typedef struct {
 /**
    Design it for a still string with a motion of `sums`, in true units.
 
-   @param[out] whole  Untouched on failure
+   @param[out] fixed  Untouched on failure
    @return false where it cannot be had: no motion, no damping, damped so much that its partials
    would shift by more than about 0.01 cent, or bending so negative that it hardly pulls back
 */
-bool chain_fixed_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, ChainFixed* whole);
+bool chain_fixed_design(StringCoefs coefs, uint32_t n_masses, ChainSums sums, ChainFixed* fixed);
 
 #endif

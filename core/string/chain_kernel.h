@@ -25,7 +25,7 @@ enum {
 typedef enum {
   CHAIN_FLOAT,
   CHAIN_DOUBLE,
-  CHAIN_FIXED, /**< Whole numbers; for strings that stand still, see core/string/chain_numbers.h */
+  CHAIN_FIXED, /**< Fixed point; for strings that stand still, see core/string/chain_numbers.h */
   N_CHAIN_NUMBERS
 } ChainNumbers;
 
@@ -58,7 +58,7 @@ typedef struct {
   uint32_t n_cells;
   StringCoefs* now;   /**< Read; written where they move */
   StringCoefs change; /**< Per frame */
-  double* gain;       /**< CHAIN_FIXED: of a whole number, after the last step; written */
+  double* gain;       /**< CHAIN_FIXED: of a number, after the last step; written */
   double fade;        /**< CHAIN_FIXED: what a step makes of the gain */
   uint32_t* chance;   /**< CHAIN_FIXED: where the dither is; written */
   ChainReader readers[CHAIN_MAX_TAPS];
@@ -93,7 +93,7 @@ typedef struct {
   /** CHAIN_FIXED: from floats in the same cells and back; NULL elsewhere.  See ChainWork. */
   void (*take)(void* cells, uint32_t n_cells, double gain, double fade);
   void (*give)(void* cells, uint32_t n_cells, double gain, double fade);
-  /** NULL where taps are not 1, 2 or 4, and for moving strings in whole numbers */
+  /** NULL where taps are not 1, 2 or 4, and for moving strings in fixed point */
   ChainLoop loops[N_CHAIN_DAMPINGS][N_CHAIN_ELASTICITIES][2][CHAIN_MAX_TAPS + 1];
 } ChainLoops;
 

@@ -3,9 +3,9 @@
    themselves.
 
    Before it is included, these say for what:
-   CHAIN_LOOP_NUMBER    float, double, or int32_t for whole numbers
+   CHAIN_LOOP_NUMBER    float, double, or int32_t for fixed point
    CHAIN_LOOP_REAL      what is computed with: float or double
-   CHAIN_LOOP_IS_FIXED  whether the numbers are whole; if so:
+   CHAIN_LOOP_IS_FIXED  whether the numbers are in fixed point; if so:
    CHAIN_LOOP_WHOLE(v)  the nearest whole numbers to a vector of float
    CHAIN_LOOP_LANES     numbers in a vector
    CHAIN_LOOP_BEFORE    how to shuffle (v, 0) so that lane l has lane l − 1, and the first the wall
@@ -17,7 +17,7 @@
    far a mass is from the middle of its neighbours;  flex  L² x;  j  cell.
 
    The differences come before the products: they are nearly exact, so a link is as precise as it is
-   small.  In whole numbers they are exact, and so is all that moves; only a link is rounded.
+   small.  In fixed point they are exact, and so is all that moves; only a link is rounded.
 */
 #include "core/string/chain_step.h"
 

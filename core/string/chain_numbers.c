@@ -9,7 +9,7 @@
 /* Damping g of the fundamental below which floats lose count: a time constant of 20,000 steps. */
 static const double WEAK_DAMPING = 1e-4;
 
-/* Noise up to which a string is put into whole numbers, relative to the motion, and up to which it
+/* Noise up to which a string is put into fixed point, relative to the motion, and up to which it
  * is then left there. */
 static const double QUIET = 3e-6;
 static const double QUIET_ENOUGH = 4e-6;
@@ -31,7 +31,7 @@ size_t chain_numbers_size(uint32_t n_masses) {
   return cells_size(n_masses, sizeof(double)) + cells_size(n_masses, sizeof(float));
 }
 
-/* Where the masses are in `numbers`: doubles first, floats and whole numbers behind them. */
+/* Where the masses are in `numbers`: doubles first, floats and fixed point behind them. */
 static void point_to(Chain* chain, ChainNumbers numbers) {
   const bool is_behind = numbers != CHAIN_DOUBLE;
   const size_t offset = is_behind ? cells_size(chain->n_masses, sizeof(double)) : 0;
@@ -126,12 +126,12 @@ static void leave_fixed(Chain* chain) {
 
 /* Not without end: chain_hold() comes here for CHAIN_FIXED, and is called for another. */
 /* NOLINTNEXTLINE(misc-no-recursion) */
-static void enter_fixed(Chain* chain, const ChainFixed* whole) {
+static void enter_fixed(Chain* chain, const ChainFixed* fixed) {
   chain_hold(chain, CHAIN_FLOAT);
   point_to(chain, CHAIN_FIXED);
-  chain->gain = whole->gain;
-  chain->fade = whole->fade;
-  chain->whole = whole->coefs;
+  chain->gain = fixed->gain;
+  chain->fade = fixed->fade;
+  chain->fixed = fixed->coefs;
   chain->loops->take(chain->cells, chain->n_cells, chain->gain, chain->fade);
 }
 
@@ -144,13 +144,13 @@ void chain_numbers_touch(Chain* chain) {
 /* NOLINTNEXTLINE(misc-no-recursion) */
 bool chain_hold(Chain* chain, ChainNumbers numbers) {
   if (numbers == CHAIN_FIXED) {
-    ChainFixed whole;
+    ChainFixed fixed;
     const bool is_still = chain->n_gliding == 0;
     if (!is_still ||
-        !chain_fixed_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &whole)) {
+        !chain_fixed_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &fixed)) {
       return false;
     }
-    enter_fixed(chain, &whole);
+    enter_fixed(chain, &fixed);
     return true;
   }
   chain_numbers_touch(chain);
@@ -162,18 +162,18 @@ bool chain_hold(Chain* chain, ChainNumbers numbers) {
 
 void chain_settle(Chain* chain) {
   const double quiet = chain->numbers == CHAIN_FIXED ? QUIET_ENOUGH : QUIET;
-  ChainFixed whole;
+  ChainFixed fixed;
   if (chain->n_gliding > 0) {
     return;
   }
   if (tuning_mode(chain->now, chain->n_masses, 1).g >= WEAK_DAMPING) {
     chain_hold(chain, CHAIN_FLOAT);
   } else if (chain->is_shared ||
-             !chain_fixed_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &whole) ||
-             !(whole.noise <= quiet)) {
+             !chain_fixed_design(chain->now, chain->n_masses, chain_numbers_sum(chain), &fixed) ||
+             !(fixed.noise <= quiet)) {
     chain_hold(chain, CHAIN_DOUBLE);
-  } else if (chain->numbers != CHAIN_FIXED || chain->gain > TOO_SMALL * whole.gain ||
-             chain->gain < TOO_LARGE * whole.gain) {
-    enter_fixed(chain, &whole);
+  } else if (chain->numbers != CHAIN_FIXED || chain->gain > TOO_SMALL * fixed.gain ||
+             chain->gain < TOO_LARGE * fixed.gain) {
+    enter_fixed(chain, &fixed);
   }
 }

@@ -28,13 +28,13 @@ double chain_numbers_position(const Chain* chain, uint32_t i);
 /** Scaled velocity of mass `i`. */
 double chain_numbers_velocity(const Chain* chain, uint32_t i);
 
-/** Put mass `i` at position `x` with scaled velocity `u`; not in whole numbers. */
+/** Put mass `i` at position `x` with scaled velocity `u`; not in fixed point. */
 void chain_numbers_place(Chain* chain, uint32_t i, double x, double u);
 
 /** Sums over the masses in true units. */
 ChainSums chain_numbers_sum(const Chain* chain);
 
-/** Leave whole numbers, which only a string can have that nothing touches. */
+/** Leave fixed point, which only a string can have that nothing touches. */
 void chain_numbers_touch(Chain* chain);
 
 #endif

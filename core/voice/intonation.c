@@ -22,8 +22,8 @@ static const double IN_TUNE = 0.05;
 /* The next sum ends where whole periods do; `late` frames of it are over. */
 static void begin_sum(Intonation* ear, double late) {
   const double period = ear->target.rate_hz / ear->target.tone.f0_hz;
-  const double least = fmax(LEAST_FRAMES, LEAST_S * ear->target.rate_hz);
-  ear->due = ceil(least / period) * period - late;
+  const double shortest = fmax(LEAST_FRAMES, LEAST_S * ear->target.rate_hz);
+  ear->due = ceil(shortest / period) * period - late;
   ear->sum[0] = ear->sum[1] = 0.0;
   ear->n_heard = 0;
 }

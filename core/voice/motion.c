@@ -2,6 +2,9 @@
 
 #include "core/base/maths.h"
 
+/* Of the frequency, that the widest swing leaves. */
+static const double LEAST_SHARE = 0.5;
+
 static uint32_t sooner(uint32_t n, const Line* line) {
   return line->n_left > 0 ? least(n, line->n_left) : n;
 }
@@ -28,7 +31,7 @@ void motion_go(VoiceMotion* motion, uint32_t n_frames) {
 
 double motion_swing(const VoiceMotion* motion) {
   const double share = exp2(motion->depth.value / 12.0) - 1.0;
-  return 12.0 * log2(1.0 + share * sin(2.0 * PI * motion->phase));
+  return 12.0 * log2(fmax(LEAST_SHARE, 1.0 + share * sin(2.0 * PI * motion->phase)));
 }
 
 double motion_bend(const VoiceMotion* motion) {

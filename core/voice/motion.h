@@ -3,7 +3,8 @@
 
    Each is a line, and the pitch follows it in pieces of a few dozen frames, in each of which the
    string's coefficients move in a straight line.  A vibrato swings in frequency, f (1 + δ sin 2πφ),
-   so that its mean over a whole swing is f itself.
+   so that its mean over a whole swing is f itself; it goes
+   down by an octave at most.
 
    Thread: one at a time; real-time safe.
 */

@@ -1,12 +1,5 @@
 #include "core/voice/tie.h"
 
-BridgeTie tie_now(const Tie* tie) {
-  return (BridgeTie){.pull = tie->pull.value,
-                     .spring = tie->spring.value,
-                     .load = tie->load.value,
-                     .weight = tie->weight};
-}
-
 bool tie_is_on(const Tie* tie) {
   return tie->pull.value > 0.0 || tie->pull.n_left > 0;
 }

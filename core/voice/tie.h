@@ -26,9 +26,6 @@ typedef struct {
   BridgeShift shift; /**< What the bridge did to the string when it was last tuned */
 } Tie;
 
-/** As it is now. */
-BridgeTie tie_now(const Tie* tie);
-
 /** Frames until it stands still. */
 static inline uint32_t tie_stretch(const Tie* tie) {
   return tie->pull.n_left;

@@ -15,7 +15,7 @@
    Pitch.  The instrument says what its strings are to be (VoiceAim): when the player changes
    something, and whenever a piece of the pitch's motion is due, for which it is asked (VoiceOwner).
 
-   Its fields are read by asking; nobody but this room writes them.
+   Its fields may be read; nobody but this room writes them.
 
    Thread: one at a time; real-time safe.
 */
@@ -101,7 +101,7 @@ typedef struct {
 
   /* How long it lives */
   double work;            /**< What all that played it has given it, see voice_work() */
-  double given;           /**< VoiceMotion that was given to it: √ω times an amplitude */
+  double given;           /**< Motion that was given to it: √ω times an amplitude */
   double lent;            /**< The same, that other strings may have given it */
   double loudest;         /**< Largest displacement seen since it was last plucked */
   uint32_t n_choked;      /**< Frames in which it has been choked */
@@ -272,7 +272,8 @@ double voice_energy(const Voice* voice);
 /**
    What plucks, hammers and bows have given it since it was strung, by their own forces, less what
    fingers took: exact but for rounding while a hammer and a bow do not share a mass.  The rest of
-   its energy is what the movement of its coefficients did, and what other strings gave it by the
+   its energy is what the movement of its coefficients and of its motion onto other masses did, less
+   what was held back of that, and what other strings gave it by the
    bridge, less what its dampers took.
 */
 double voice_work(const Voice* voice);
@@ -281,6 +282,11 @@ double voice_work(const Voice* voice);
 
 /** Others may have given it so much motion, see Voice.lent. */
 void voice_lend(Voice* voice, double motion);
+
+/** Let its tie go on by one frame. */
+static inline void voice_advance_tie(Voice* voice) {
+  tie_advance(&voice->tie);
+}
 
 /** Say whether something else moves it in every frame. */
 void voice_share(Voice* voice, bool is_shared);

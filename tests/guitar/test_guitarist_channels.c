@@ -211,6 +211,38 @@ static void what_is_let_go_keeps_its_touch(void** state) {
   player_free(player);
 }
 
+/* And so does what is let go in the frame of another note, which waits for its chord. */
+static void what_is_let_go_beside_a_note_keeps_its_touch(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){0});
+  guitarist_gesture(player.guitarist, 3, GESTURE_DAMPER, 1.0);
+  on(player, 3, 64, HARD);
+  player_run(player, 100);
+  on(player, 2, 45, HARD);
+  off(player, 3, 64);
+  guitarist_let_go(player.guitarist, 3);
+  player_run(player, 100);
+  guitarist_gesture(player.guitarist, 3, GESTURE_BEND, 2.0);
+  assert_true(isnan(value_on(player, GUITAR_BEND, 0)));
+  player_free(player);
+}
+
+/* A key's own pressure ends with the key, be a pedal down; and it comes with its note. */
+static void a_keys_pressure_is_its_own(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){0});
+  guitarist_gesture(player.guitarist, 2, GESTURE_DAMPER, 1.0);
+  on(player, 2, 64, HARD);
+  guitarist_press_key(player.guitarist, 2, 64, 1.0);
+  player_run(player, 100);
+  assert_near(value_on(player, GUITAR_VIBRATO, 0), 0.5);
+  off(player, 2, 64);
+  player_run(player, 100);
+  assert_near(value_on(player, GUITAR_VIBRATO, 0), 0.0);
+  assert_int_equal(n_damped(player), 0);
+  player_free(player);
+}
+
 /* In a zone of six members the first of them plays the highest string. */
 static void seats_are_strings(void** state) {
   (void)state;
@@ -391,6 +423,8 @@ int main(void) {
       cmocka_unit_test(gestures_are_of_the_strings_that_play_the_channels_notes),
       cmocka_unit_test(a_string_has_the_touch_of_who_plays_it),
       cmocka_unit_test(what_is_let_go_keeps_its_touch),
+      cmocka_unit_test(what_is_let_go_beside_a_note_keeps_its_touch),
+      cmocka_unit_test(a_keys_pressure_is_its_own),
       cmocka_unit_test(seats_are_strings),
       cmocka_unit_test(a_key_that_two_channels_hold_rings_until_the_last_lets_go),
       cmocka_unit_test(brightness_is_hardness),

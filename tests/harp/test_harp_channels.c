@@ -193,27 +193,95 @@ static void a_channel_has_a_gain_of_its_own(void** state) {
   }
 }
 
-/* A gain that moves while a note rings goes there in a straight line, at its channel alone. */
+/* A gain that moves while a note rings goes there in a straight line, at its channel alone,
+ * whatever pickups hear. */
 static void a_gain_moves_in_a_straight_line(void** state) {
   (void)state;
   static float as_it_is[RATE];
-  Harp* const harp = harp_notes_harp();
-  Harp* const still = harp_notes_harp();
-  harp_note_on(harp, 2, KEY, 100);
-  harp_note_on(still, 2, KEY, 100);
-  harps_run(harp, 1000, NULL, NULL);
-  harps_run(still, 1000, NULL, NULL);
-  harp_set_gain(harp, 2, 0.0);
-  harp_set_gain(harp, 3, 7.0);
-  harps_run(harp, RATE / 4, left, NULL);
-  harps_run(still, RATE / 4, as_it_is, NULL);
-  double error = 0.0;
-  for (uint32_t n = 0; n < RATE / 4; ++n) {
-    const double gain = fmax(0.0, 1.0 - (n + 1.0) / harp->n_gesture);
-    error = fmax(error, fabs((double)left[n] - gain * (double)as_it_is[n]));
+  for (int type = 0; type < 3; ++type) {
+    HarpPatch patch = harp_notes_patch();
+    patch.pickup_type = (PickupType)type;
+    Harp* const harp = harps_new(RATE, &patch);
+    Harp* const still = harps_new(RATE, &patch);
+    harp_note_on(harp, 2, KEY, 100);
+    harp_note_on(still, 2, KEY, 100);
+    harps_run(harp, 1000, NULL, NULL);
+    harps_run(still, 1000, NULL, NULL);
+    harp_set_gain(harp, 2, 0.0);
+    harp_set_gain(harp, 3, 7.0);
+    harps_run(harp, RATE / 4, left, NULL);
+    harps_run(still, RATE / 4, as_it_is, NULL);
+    double error = 0.0;
+    for (uint32_t n = 0; n < RATE / 4; ++n) {
+      const double gain = fmax(0.0, 1.0 - (n + 1.0) / harp->n_gesture);
+      error = fmax(error, fabs((double)left[n] - gain * (double)as_it_is[n]));
+    }
+    assert_within("of full scale", error, 1e-6);
+    assert_true(measure_peak(as_it_is, RATE / 4) > 0.05);
+    harp_free(still);
+    harp_free(harp);
   }
-  assert_within("of full scale", error, 1e-6);
-  harp_free(still);
+}
+
+/* What rings softly does not become loud when another channel takes its key. */
+static void what_rings_with_another_gain_is_left_alone(void** state) {
+  (void)state;
+  Harp* const harp = harp_notes_harp();
+  Harp* const twin = harp_notes_harp();
+  harp_set_gain(harp, 1, 0.25);
+  harp_set_gain(twin, 1, 0.25);
+  harp_pedal(harp, 1, 1.0);
+  harp_pedal(twin, 1, 1.0);
+  harps_run(harp, harp->n_gesture, NULL, NULL);
+  harps_run(twin, twin->n_gesture, NULL, NULL);
+  harp_note_on(harp, 1, KEY, 127);
+  harp_note_on(twin, 1, KEY, 127);
+  harps_run(harp, RATE / 10, NULL, NULL);
+  harps_run(twin, RATE / 10, NULL, NULL);
+  harp_note_off(harp, 1, KEY);
+  harp_note_off(twin, 1, KEY);
+  harp_note_on(harp, 0, KEY, 1);
+  assert_int_equal(harp->strings[KEY].channel, 1);
+  assert_int_equal(spare_at(harp, KEY)->channel, 0);
+  static float other[RATE];
+  harps_run(harp, RATE / 10, left, NULL);
+  harps_run(twin, RATE / 10, other, NULL);
+  double most = 0.0;
+  for (uint32_t n = 0; n < RATE / 10; ++n) {
+    most = fmax(most, fabs((double)left[n] - (double)other[n]));
+  }
+  /* As soft as velocity 1 is: (1/127)² of the loudest. */
+  assert_within("that a note of velocity 1 adds", most, 1e-3);
+  harp_free(twin);
+  harp_free(harp);
+}
+
+/* Who holds a shared string bends it, once the one that played it last has let go; and it is no
+ * longer stopped with the other's. */
+static void a_shared_string_is_handed_on(void** state) {
+  (void)state;
+  Harp* const harp = harp_notes_harp();
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    for (uint32_t key = KEY; key < KEY + 3; ++key) {
+      harp_note_on(harp, channel, key, 100);
+    }
+  }
+  const HarpString* const shared = &harp->strings[KEY];
+  const uint32_t last = shared->channel;
+  assert_true(n_holders(shared) > 1);
+  harp_bend(harp, last, 3.0);
+  harp_note_off(harp, last, KEY);
+  assert_true(shared->channel != last && harp_channels_holds(shared, shared->channel));
+  harp_bend(harp, shared->channel, -2.0);
+  harp_notes_check_pitch(harp, shared, -2.0);
+  harp_all_sound_off(harp, last);
+  harp_notes_check_decay(harp, shared, harp_notes_open_s(KEY));
+  while (n_holders(shared) > 1) {
+    harp_note_off(harp, shared->channel, KEY);
+  }
+  harp_all_sound_off(harp, shared->channel);
+  harps_run(harp, RATE / 2, NULL, NULL);
+  assert_false(shared->voice.is_awake || shared->holders);
   harp_free(harp);
 }
 
@@ -292,6 +360,8 @@ int main(void) {
       cmocka_unit_test(a_shared_string_sounds_until_the_last_lets_go),
       cmocka_unit_test(a_channel_has_a_gain_of_its_own),
       cmocka_unit_test(a_gain_moves_in_a_straight_line),
+      cmocka_unit_test(what_rings_with_another_gain_is_left_alone),
+      cmocka_unit_test(a_shared_string_is_handed_on),
       cmocka_unit_test(a_spare_string_can_have_any_key_in_turn),
       cmocka_unit_test(what_is_let_go_keeps_its_touch_but_not_its_pedal),
       cmocka_unit_test(a_reset_harp_knows_no_channel),

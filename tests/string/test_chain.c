@@ -17,7 +17,7 @@
 enum { STEPS = 300 };
 
 /*
-  In whole numbers a link errs by 0.41 of a number in the mean; a mode grows by that over √k1 a
+  In fixed point a link errs by 0.41 of a number in the mean; a mode grows by that over √k1 a
   step, at random, so that a mass is 0.41 √(300/k1) = 18 off where k1 is 0.15, and six times that
   happens to none of a million.  Where numbers are large a link's own last place is more: 0.29 ε of
   it.
@@ -25,7 +25,7 @@ enum { STEPS = 300 };
 static const double CHANCE = 6.0 * 18.0;
 static const double LAST_PLACES = 6.0 * 0.29 * 45.0 * (double)FLT_EPSILON;
 
-static const char* const names[] = {"in floats", "in doubles", "in whole numbers"};
+static const char* const names[] = {"in floats", "in doubles", "in fixed point"};
 
 static _Alignas(CHAIN_ALIGNMENT) char memory[CHAINS_MOST_BYTES];
 
@@ -208,7 +208,7 @@ static void every_glide_is_the_same_string(void** state) {
   assert_within("positions up to 4", worst, 4.0 * 150.0 * 6.0 * 0.5 * (double)FLT_EPSILON);
 }
 
-/* Over the motion; in the one's whole numbers, for they may differ a little in their size. */
+/* Over the motion; in the one's fixed point, for they may differ a little in their size. */
 static double difference_of_kernels(ChainNumbers numbers, int scene, uint32_t n) {
   static Motion one;
   static Motion other;

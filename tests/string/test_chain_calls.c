@@ -47,7 +47,7 @@ typedef struct {
   uint32_t n_glide;
 } Turn;
 
-/* Glides into bending, one that is overtaken, and one into all there is; and whole numbers, into
+/* Glides into bending, one that is overtaken, and one into all there is; and fixed point, into
  * which a glide breaks as well. */
 static const Turn turns[] = {
     {0, CHAIN_FLOAT, NULL, 0},          {301, CHAIN_DOUBLE, &bending, 400},
@@ -162,7 +162,7 @@ static void check_rest(Chain* chain, const bool* is_mass) {
   assert_int_equal(n_found, 2 * chain->n_masses);
 }
 
-/* Floats and whole numbers lie in the same places. */
+/* Floats and fixed point lie in the same places. */
 static void what_is_no_mass_stays_exactly_at_rest(void** state) {
   (void)state;
   static const StringCoefs* const coefs[] = {&flexible, &bending, &straightened};

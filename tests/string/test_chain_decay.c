@@ -1,4 +1,4 @@
-/* Whole numbers neither gain nor lose: a string dies when it should, and what its rounding adds is
+/* Fixed point neither gains nor loses: a string dies when it should, and what its rounding adds is
  * as little as was said. */
 #include "core/string/chain.h"
 
@@ -59,7 +59,7 @@ static void pull_aside(Chain* chain, double corner) {
   }
 }
 
-/* In whole numbers, or false where the string is better in doubles. */
+/* In fixed point, or false where the string is better in doubles. */
 static bool
 start(Chain* chain, uint32_t kernel, const TuningTarget* target, uint32_t most, double corner) {
   const uint32_t n = tuning_max_masses(target, most);
@@ -123,7 +123,7 @@ static void strings_die_when_they_should(void** state) {
     const TuningTarget target = target_of(&cases[c]);
     Chain chain;
     if (!start(&chain, c % 2 && chain_kernel(1), &target, cases[c].most, c % 3 ? 0.2 : 0.5)) {
-      print_message("  %g Hz at %g Hz, tau %g s, %u masses: not in whole numbers\n", cases[c].f0_hz,
+      print_message("  %g Hz at %g Hz, tau %g s, %u masses: not in fixed point\n", cases[c].f0_hz,
                     cases[c].rate_hz, cases[c].tau_s, chain.n_masses);
       continue;
     }
@@ -181,7 +181,7 @@ static Noise noise_of(const TuningTarget* target, uint32_t most, uint32_t chance
     noise.all += x[0][i] * x[0][i] * (whole.gain / said) * (whole.gain / said) * 2.0 / n;
   }
   noise.all /= 0.5 * n;
-  noise.first = whole.gain / said * cabs(mode_of(whole.whole, n, 1, x[0], u[0]));
+  noise.first = whole.gain / said * cabs(mode_of(whole.fixed, n, 1, x[0], u[0]));
   noise.first *= noise.first;
   return noise;
 }

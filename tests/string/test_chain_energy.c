@@ -15,7 +15,7 @@
 
 enum { MOST_DENSE = 64 };
 
-static const char* const names[] = {"in floats", "in doubles", "in whole numbers"};
+static const char* const names[] = {"in floats", "in doubles", "in fixed point"};
 
 static _Alignas(CHAIN_ALIGNMENT) char memory[CHAINS_MOST_BYTES];
 
@@ -45,7 +45,7 @@ static double energy_drift(Chain* chain, uint32_t n_frames) {
 
 /*
   2000 steps whose roundings change E by an ε of it each and may all agree; they do not, so a tenth
-  of that in floats, and in doubles; in whole numbers an ε is what the dither is of the motion.
+  of that in floats, and in doubles; in fixed point an ε is what the dither is of the motion.
 */
 static double most_drift(ChainNumbers numbers) {
   return 0.1 * 2000.0 * (numbers == CHAIN_DOUBLE ? DBL_EPSILON : (double)FLT_EPSILON);

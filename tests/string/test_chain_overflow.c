@@ -40,10 +40,10 @@ static double largest(const Chain* chain) {
   chains_read(chain, x + 3, u);
   for (uint32_t i = 3; i < n + 3; ++i) {
     bow[i] =
-        chain->whole.k2 != 0.0 || chain->whole.k3 != 0.0 ? 2.0 * x[i] - x[i - 1] - x[i + 1] : 0.0;
+        chain->fixed.k2 != 0.0 || chain->fixed.k3 != 0.0 ? 2.0 * x[i] - x[i - 1] - x[i + 1] : 0.0;
   }
   for (uint32_t i = 3; i < n + 3; ++i) {
-    flex[i] = chain->whole.k3 != 0.0 ? 2.0 * bow[i] - bow[i - 1] - bow[i + 1] : 0.0;
+    flex[i] = chain->fixed.k3 != 0.0 ? 2.0 * bow[i] - bow[i - 1] - bow[i + 1] : 0.0;
     most = fmax(most, fmax(fabs(u[i - 3]), fmax(fabs(x[i]), fmax(fabs(bow[i]), fabs(flex[i])))));
   }
   for (uint32_t i = 3; i < n + 4; ++i) {

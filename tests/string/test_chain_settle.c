@@ -54,7 +54,7 @@ static double farthest(const Motion* a, const Motion* b, uint32_t n) {
          chains_largest(a->x, n);
 }
 
-/* From floats to whole numbers and back; among sums and amplitudes too there is no difference. */
+/* From floats to fixed point and back; among sums and amplitudes too there is no difference. */
 static void motion_passes_to_whole_numbers_and_back(void** state) {
   (void)state;
   double worst = 0.0;
@@ -97,7 +97,7 @@ static void gain_fades_as_the_air_has_it(void** state) {
   const double before = chain.gain;
   chains_run(&chain, 1000);
   assert_true(fabs(chain.gain / before / pow(1.0 - 2e-5, 500.0) - 1.0) < 1e-12);
-  assert_true(chain.now.z0 == 2e-5 && chain.whole.z0 == 0.0);
+  assert_true(chain.now.z0 == 2e-5 && chain.fixed.z0 == 0.0);
 }
 
 static void strings_settle_where_they_ring_best(void** state) {

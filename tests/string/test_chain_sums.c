@@ -20,7 +20,7 @@ static const double PI = 3.14159265358979323846;
 /* Masses, the walls, and the wall's neighbour beyond it. */
 enum { MOST_PLACES = CHAIN_MAX_MASSES + 4 };
 
-static const char* const names[] = {"in floats", "in doubles", "in whole numbers"};
+static const char* const names[] = {"in floats", "in doubles", "in fixed point"};
 
 static _Alignas(CHAIN_ALIGNMENT) char memory[CHAINS_MOST_BYTES];
 

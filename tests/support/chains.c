@@ -46,7 +46,7 @@ StringCoefs chains_seen(const Chain* chain) {
   case CHAIN_DOUBLE:
     return chain->now;
   case CHAIN_FIXED:
-    return chains_rounded(chain->whole);
+    return chains_rounded(chain->fixed);
   default:
     return chains_rounded(chain->now);
   }

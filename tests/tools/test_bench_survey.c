@@ -238,7 +238,7 @@ static void what_is_played_is_what_is_computed(void** state) {
   /* Chains are read as floats, 6e-8, over a fifth of a second. */
   assert_within("doubles [cents]", off[0].cents, 2e-5);
   assert_within("doubles [% of τ]", off[0].decay_percent, 2e-3);
-  /* The noise of a pluck of whole numbers or floats, −90 dB or less, over 70 radians or more. */
+  /* The noise of a pluck of fixed point or floats, −90 dB or less, over 70 radians or more. */
   assert_within("floats [cents]", off[1].cents, 5e-3);
   assert_within("floats [% of τ]", off[1].decay_percent, 0.3);
 }

@@ -119,6 +119,19 @@ static void vibrato_stops_and_begins_at_no_bend(void** state) {
   assert_true(motion_bend(&motion) == 0.0);
 }
 
+/* As deep as the deepest there is, 12 semitones: the pitch is never nought. */
+static void the_widest_vibrato_goes_down_by_an_octave(void** state) {
+  (void)state;
+  VoiceMotion motion = {.rate = 1.0 / 1024.0};
+  double lowest = 0.0;
+  line_to(&motion.depth, 12.0, 0);
+  for (int n = 0; n < 1024; ++n) {
+    lowest = fmin(lowest, motion_bend(&motion));
+    motion_go(&motion, 1);
+  }
+  assert_within("off an octave down", fabs(lowest + 12.0), 1e-9);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(zero_is_still),
@@ -126,6 +139,7 @@ int main(void) {
       cmocka_unit_test(piece_ends_where_a_line_does),
       cmocka_unit_test(new_goal_starts_from_where_it_is),
       cmocka_unit_test(vibrato_is_a_sine_of_the_frequency),
+      cmocka_unit_test(the_widest_vibrato_goes_down_by_an_octave),
       cmocka_unit_test(vibrato_stops_and_begins_at_no_bend),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

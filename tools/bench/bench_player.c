@@ -93,7 +93,7 @@ static bool fill_bank(BenchPlayer* player) {
 }
 
 /*
-  Of a string in whole numbers, x[n] = gain ρⁿ X[n], X without air but else as any string: played in
+  Of a string in fixed point, x[n] = gain ρⁿ X[n], X without air but else as any string: played in
   doubles, and faded outside.  U = ρ u/gain + (1 − ρ) X.
 */
 static bool take_air_out(BenchPlayer* player) {
@@ -107,7 +107,7 @@ static bool take_air_out(BenchPlayer* player) {
   if (!chain_hold(chain, CHAIN_FIXED)) {
     return false;
   }
-  const StringCoefs whole = bench_way_rounded(chain->whole);
+  const StringCoefs whole = bench_way_rounded(chain->fixed);
   player->fade = chain->fade;
   chain_init(chain, chain_kernel(0), player->memory, player->n_masses);
   chain_set(chain, whole);

@@ -21,14 +21,14 @@ static const char* const all_numbers[N_CHAIN_NUMBERS] = {
 
 /*
   What a mass-step needs, counted by hand from the step in core/string/chain.h, each difference
-  being taken once and shared.  In whole numbers each term of a link is turned into a float and the
+  being taken once and shared.  In fixed point each term of a link is turned into a float and the
   link back again, the first product has the dither added, and the air needs nothing, for it is in
   the gain.
 */
 typedef struct {
   int additions;   /* And subtractions */
   int products;    /* Each added to what is there, but for the first one's in floats and doubles */
-  int conversions; /* In whole numbers */
+  int conversions; /* In fixed point */
 } Need;
 
 /* Δx, link − link before, u + pull, x + u;  k1 Δx;  Δx and the link. */

@@ -59,7 +59,7 @@ enum { BENCH_N_PARTIALS = 20 };
 */
 bool bench_way_coefs(BenchWay way, TuningTarget wanted, uint32_t n_masses, StringCoefs* coefs);
 
-/** The same, as loops of floats and of whole numbers have them. */
+/** The same, as loops of floats and of fixed point have them. */
 StringCoefs bench_way_rounded(StringCoefs coefs);
 
 /** The k-th partial of the ideal or stiff string [Hz], k f1 √((1 + B k²)/(1 + B)). */

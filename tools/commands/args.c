@@ -12,7 +12,7 @@ int args_next(Args* args) {
       args->is_over ? -1 : getopt_long(args->argc, args->argv, "-:", args->options, NULL);
   args->value = optarg;
   switch (found) {
-  case -1: // Behind "--" there are operands alone
+  case -1: /* Behind "--" there are operands alone */
     args->is_over = true;
     args->value = optind < args->argc ? args->argv[optind++] : NULL;
     return args->value ? ARGS_OPERAND : ARGS_END;

@@ -15,12 +15,12 @@ enum { ARGS_END = -1, ARGS_OPERAND = -2, ARGS_ERROR = -3, ARGS_OPTION = 256 };
 
 /** A command line on its way through getopt_long(), of which there is one in a process. */
 typedef struct {
-  const char* command; ///< For messages
+  const char* command; /**< For messages */
   int argc;
   char** argv;
-  const struct option* options; ///< As getopt_long() takes them, with values from ARGS_OPTION on
-  const char* value;            ///< Of the option or operand found last
-  bool is_over;                 ///< There are no more options
+  const struct option* options; /**< As getopt_long() takes them, with values from ARGS_OPTION on */
+  const char* value;            /**< Of the option or operand found last */
+  bool is_over;                 /**< There are no more options */
 } Args;
 
 /**

@@ -43,8 +43,8 @@ static const struct option options[] = {{"lowest", required_argument, NULL, LOWE
 typedef struct {
   Args args;
   const char* in;
-  long n_lowest;  // 0: all
-  double rate_hz; // 0: the scene's
+  long n_lowest;  /* 0: all */
+  double rate_hz; /* 0: the scene's */
   bool is_csv;
   bool is_json;
 } Command;

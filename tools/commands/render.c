@@ -55,8 +55,8 @@ const char render_help[] =
 enum {
   ERROR_SIZE = 4608,
   PATH_SIZE = 4096,
-  SCENE_BLOCK = 256,        // Frames between two looks at the whole
-  MAX_MASSES_TO_NAME = 1000 // Above this the mode that grows is not sought
+  SCENE_BLOCK = 256,        /* Frames between two looks at the whole */
+  MAX_MASSES_TO_NAME = 1000 /* Above this the mode that grows is not sought */
 };
 
 static const double USUAL_RATE_HZ = 48000.0;
@@ -67,19 +67,19 @@ typedef struct {
   Args args;
   const char* in;
   const char* out;
-  Kind kind;          // Of `in`
-  const char* preset; // NULL: none
-  const char* plugin; // Its URI
-  const char** sets;  // In the order given
+  Kind kind;          /* Of `in` */
+  const char* preset; /* NULL: none */
+  const char* plugin; /* Its URI */
+  const char** sets;  /* In the order given */
   size_t n_sets;
-  long rate_hz;            // 0: the usual one
-  long block;              // [frames]
-  long bits;               // 0: the usual ones
-  double tail_s;           // Below 0: until silent
-  const char* song_option; // One that was given and is not for scenes
+  long rate_hz;            /* 0: the usual one */
+  long block;              /* [frames] */
+  long bits;               /* 0: the usual ones */
+  double tail_s;           /* Below 0: until silent */
+  const char* song_option; /* One that was given and is not for scenes */
   bool lists_presets;
   bool is_quiet;
-  bool is_anyway; // Whether a scene that is unstable is rendered too
+  bool is_anyway; /* Whether a scene that is unstable is rendered too */
 } Render;
 
 /* The command line */

@@ -48,12 +48,12 @@ enum { MAX_MASSES = 10000000 };
 
 typedef struct {
   Args args;
-  const char* in;      // NULL: a string
-  TuningTarget target; // Its numbers are 0 until they are given
+  const char* in;      /* NULL: a string */
+  TuningTarget target; /* Its numbers are 0 until they are given */
   double mass_kg;
-  long n_masses; // 0: not given
+  long n_masses; /* 0: not given */
   long mode;
-  const char* string_option; // One that was given and is for strings only
+  const char* string_option; /* One that was given and is for strings only */
   bool is_mode_given;
   bool is_csv;
 } Command;

@@ -10,9 +10,9 @@
 
 /** A growing array of bytes; all zero is a valid, empty one. */
 typedef struct {
-  uint8_t* data;   ///< From malloc, or NULL while nothing was ever stored
-  size_t size;     ///< Bytes in use
-  size_t capacity; ///< Bytes allocated
+  uint8_t* data;   /**< From malloc, or NULL while nothing was ever stored */
+  size_t size;     /**< Bytes in use */
+  size_t capacity; /**< Bytes allocated */
 } Bytes;
 
 /**

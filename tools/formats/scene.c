@@ -27,22 +27,22 @@ typedef enum { A_MASS, A_GROUND, A_STRING } Kind;
 typedef struct {
   char* name;
   Kind kind;
-  uint32_t line;     // Where it is declared
-  uint32_t first;    // Its first point
-  uint32_t n_masses; // Of a string: the points from `first` on; the two ends follow
+  uint32_t line;     /* Where it is declared */
+  uint32_t first;    /* Its first point */
+  uint32_t n_masses; /* Of a string: the points from `first` on; the two ends follow */
 } Name;
 
 typedef struct {
   Text text;
-  Bytes names;      // Name each, those of one kind of point in the order of their points
-  uint32_t* slots;  // A table of names by hash: a place in `names` plus 1, or 0
-  uint32_t n_slots; // A power of 2, or 0
+  Bytes names;      /* Name each, those of one kind of point in the order of their points */
+  uint32_t* slots;  /* A table of names by hash: a place in `names` plus 1, or 0 */
+  uint32_t n_slots; /* A power of 2, or 0 */
   Network* network;
-  Bytes events;  // SceneEvent each
-  Bytes pickups; // ScenePickup each
+  Bytes events;  /* SceneEvent each */
+  Bytes pickups; /* ScenePickup each */
   double rate_hz;
   double end_s;
-  uint32_t rate_line; // 0: not declared yet
+  uint32_t rate_line; /* 0: not declared yet */
   uint32_t end_line;
 } Reader;
 

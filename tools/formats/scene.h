@@ -33,8 +33,8 @@ enum { SCENE_ERROR_SIZE = 4608 };
 
 /** What a scene is read for. */
 typedef enum {
-  SCENE_FOR_MODES, ///< Its network and rate; pickups and an end may be missing
-  SCENE_FOR_SOUND  ///< All of it
+  SCENE_FOR_MODES, /**< Its network and rate; pickups and an end may be missing */
+  SCENE_FOR_SOUND  /**< All of it */
 } ScenePurpose;
 
 /** What is done to a mass. */
@@ -42,23 +42,23 @@ typedef enum { SCENE_DISPLACE, SCENE_STRIKE, SCENE_PUSH } SceneAction;
 
 typedef struct {
   SceneAction action;
-  uint32_t point;    ///< Of the network
-  uint32_t line;     ///< Of the file, from 1
-  double time_s;     ///< ≥ 0 [s]
-  double value;      ///< [m], [m/s] or [N]
-  double duration_s; ///< Of a push, > 0 [s]
+  uint32_t point;    /**< Of the network */
+  uint32_t line;     /**< Of the file, from 1 */
+  double time_s;     /**< ≥ 0 [s] */
+  double value;      /**< [m], [m/s] or [N] */
+  double duration_s; /**< Of a push, > 0 [s] */
 } SceneEvent;
 
 typedef struct {
-  uint32_t point; ///< Of the network
-  double gain;    ///< [1/m]
+  uint32_t point; /**< Of the network */
+  double gain;    /**< [1/m] */
 } ScenePickup;
 
 typedef struct {
-  double rate_hz;     ///< > 0
-  double end_s;       ///< > 0; 0 if there is none
-  Network* network;   ///< Checked, at rest, no part of it free
-  SceneEvent* events; ///< As they come in the file
+  double rate_hz;     /**< > 0 */
+  double end_s;       /**< > 0; 0 if there is none */
+  Network* network;   /**< Checked, at rest, no part of it free */
+  SceneEvent* events; /**< As they come in the file */
   size_t n_events;
   ScenePickup* pickups;
   size_t n_pickups;

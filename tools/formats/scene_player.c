@@ -9,20 +9,20 @@ static const double STILL = 1e-200;
 /* What is done to a mass, at one step. A push is two of these. */
 typedef struct {
   uint64_t step;
-  size_t order; // In the file
+  size_t order; /* In the file */
   double value;
   uint32_t point;
   SceneAction action;
-  bool is_release; // The end of a push
+  bool is_release; /* The end of a push */
 } Change;
 
 struct ScenePlayer {
   Network* network;
   const Scene* scene;
-  Change* changes; // In the order in which they come
+  Change* changes; /* In the order in which they come */
   size_t n_changes;
   size_t next;
-  uint32_t* n_pushes; // On each point at present
+  uint32_t* n_pushes; /* On each point at present */
   double step_s;
   uint64_t step;
   uint64_t n_frames;

@@ -50,31 +50,31 @@ enum { LIST_SIZE = 160, NO_LENGTH = -1 };
 
 /* When a line acts. */
 typedef struct {
-  ScoreSpan at;     // From the start or the moment before
-  bool is_relative; // To the moment before
-  uint32_t line;    // Of the file
+  ScoreSpan at;     /* From the start or the moment before */
+  bool is_relative; /* To the moment before */
+  uint32_t line;    /* Of the file */
 } Moment;
 
 /* An event whose time is not known yet. */
 typedef struct {
   GuitarEvent event;
-  uint32_t moment;  // Its place in Reader.moments
-  ScoreSpan after;  // How long after that moment it acts
-  ScoreSpan length; // Goes into a value of the event
-  int length_at;    // Which one, or NO_LENGTH
-  bool is_stop;     // Of a vibrato; void if another one of the string began since
+  uint32_t moment;  /* Its place in Reader.moments */
+  ScoreSpan after;  /* How long after that moment it acts */
+  ScoreSpan length; /* Goes into a value of the event */
+  int length_at;    /* Which one, or NO_LENGTH */
+  bool is_stop;     /* Of a vibrato; void if another one of the string began since */
 } Pending;
 
 typedef struct {
   Text text;
   ScoreTempo tempo;
-  Bytes moments;       // Moment each, in the order of lines
-  Bytes pending;       // Pending each, in the order of lines
-  Bytes settings;      // ScoreSetting each
-  char* preset;        // In the text; NULL: none
-  double meter;        // Beats a bar
-  uint32_t bars_line;  // Where a time was first in bars; 0: nowhere yet
-  uint32_t tempo_line; // Where each was said; 0: not yet
+  Bytes moments;       /* Moment each, in the order of lines */
+  Bytes pending;       /* Pending each, in the order of lines */
+  Bytes settings;      /* ScoreSetting each */
+  char* preset;        /* In the text; NULL: none */
+  double meter;        /* Beats a bar */
+  uint32_t bars_line;  /* Where a time was first in bars; 0: nowhere yet */
+  uint32_t tempo_line; /* Where each was said; 0: not yet */
   uint32_t meter_line;
   uint32_t tuning_line;
   uint32_t capo_line;
@@ -210,8 +210,8 @@ enum {
 
 static const struct {
   const char* word;
-  const TextRange* range; // Of its value; NULL: a length or none
-  unsigned alone;         // Of these there is one at most
+  const TextRange* range; /* Of its value; NULL: a length or none */
+  unsigned alone;         /* Of these there is one at most */
   bool has_length;
 } options[N_OPTIONS] = {
     [OPTION_FORCE] = {"force", &FORCE, BIT_FORCE, false},
@@ -227,12 +227,12 @@ static const struct {
 
 /* What follows the verb of an event. */
 typedef struct {
-  uint32_t string;            // Of ON_STRING
-  double number;              // Where the verb has one
-  double fret[SCORE_STRINGS]; // Of ON_CHORD, as strings count; NAN: not played
-  bool is_up;                 // Of ON_CHORD
-  unsigned given;             // Options
-  double value[N_OPTIONS];    // Of those that are given
+  uint32_t string;            /* Of ON_STRING */
+  double number;              /* Where the verb has one */
+  double fret[SCORE_STRINGS]; /* Of ON_CHORD, as strings count; NAN: not played */
+  bool is_up;                 /* Of ON_CHORD */
+  unsigned given;             /* Options */
+  double value[N_OPTIONS];    /* Of those that are given */
   ScoreSpan length[N_OPTIONS];
 } ScoreLine;
 
@@ -450,7 +450,7 @@ typedef enum { ON_ALL, ON_STRING, ON_CHORD } Object;
 static const struct {
   const char* word;
   Object object;
-  const TextRange* range; // Of the number, or NULL
+  const TextRange* range; /* Of the number, or NULL */
   unsigned allowed;
   unsigned required;
   bool (*take)(Reader* reader, const ScoreLine* line);
@@ -691,7 +691,7 @@ typedef struct {
 
 typedef struct {
   ScoreEvent event;
-  size_t order; // In the file
+  size_t order; /* In the file */
   bool is_stop;
 } Entry;
 
@@ -769,7 +769,7 @@ static int compare(const void* a, const void* b) {
 
 /* Take over what acts: the end of a vibrato does unless another one has begun on its string. */
 static void keep_what_acts(Score* score, const Entry* entries, size_t n) {
-  uint32_t swinging[SCORE_STRINGS] = {0}; // The line that began it
+  uint32_t swinging[SCORE_STRINGS] = {0}; /* The line that began it */
   for (size_t i = 0; i < n; ++i) {
     const ScoreEvent* const event = &entries[i].event;
     uint32_t* const line = &swinging[event->event.string];

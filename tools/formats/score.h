@@ -30,10 +30,10 @@
 #include <stdint.h>
 
 enum {
-  SCORE_STRINGS = 6,          ///< Of the plugin, with the control ports string1 to string6
-  SCORE_MAX_EVENTS = 1000000, ///< A strum being up to twelve
-  SCORE_MAX_LINE = 65536,     ///< [bytes]
-  SCORE_ERROR_SIZE = 4608     ///< Room for any message about a path of usual length [bytes]
+  SCORE_STRINGS = 6,          /**< Of the plugin, with the control ports string1 to string6 */
+  SCORE_MAX_EVENTS = 1000000, /**< A strum being up to twelve */
+  SCORE_MAX_LINE = 65536,     /**< [bytes] */
+  SCORE_ERROR_SIZE = 4608     /**< Room for any message about a path of usual length [bytes] */
 };
 
 /** The latest time, and the longest length of time [s]. */
@@ -43,28 +43,29 @@ enum {
 extern const char score_help[];
 
 typedef struct {
-  double time_s;     ///< ≥ 0 [s]
-  uint32_t line;     ///< Of the file, from 1
-  GuitarEvent event; ///< In range for a guitar of SCORE_STRINGS strings
+  double time_s;     /**< ≥ 0 [s] */
+  uint32_t line;     /**< Of the file, from 1 */
+  GuitarEvent event; /**< In range for a guitar of SCORE_STRINGS strings */
 } ScoreEvent;
 
 /** A control port to be set before the start. */
 typedef struct {
   const char* symbol;
-  const char* text; ///< What is to stand behind "SYMBOL="; NULL: `value` is meant
+  const char* text; /**< What is to stand behind "SYMBOL="; NULL: `value` is meant */
   double value;
-  uint32_t line; ///< Of the file
+  uint32_t line; /**< Of the file */
 } ScoreSetting;
 
 typedef struct {
-  ScoreEvent* events; ///< By time; at one time in the order of lines; a strum's as they are played
-  size_t n_events;    ///< ≥ 1
-  ScoreSetting* settings; ///< In the order of lines
+  ScoreEvent*
+      events;      /**< By time; at one time in the order of lines; a strum's as they are played */
+  size_t n_events; /**< ≥ 1 */
+  ScoreSetting* settings; /**< In the order of lines */
   size_t n_settings;
-  const char* preset;   ///< To be loaded before the settings; NULL: none
-  uint32_t preset_line; ///< Of the file
-  double duration_s;    ///< Time of the last event [s]
-  Bytes text;           ///< Which symbols and names are in
+  const char* preset;   /**< To be loaded before the settings; NULL: none */
+  uint32_t preset_line; /**< Of the file */
+  double duration_s;    /**< Time of the last event [s] */
+  Bytes text;           /**< Which symbols and names are in */
 } Score;
 
 /**

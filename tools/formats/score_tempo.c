@@ -7,11 +7,11 @@
 typedef struct {
   ScoreSpan from;
   double beats_per_s;
-  size_t order; // In which they were added
+  size_t order; /* In which they were added */
 } Change;
 
 typedef struct {
-  double time_s; // Where it begins, both ways
+  double time_s; /* Where it begins, both ways */
   double beats;
   double beats_per_s;
 } Piece;

@@ -16,14 +16,14 @@
 
 /** A moment, or a length of time. */
 typedef struct {
-  double value; ///< Seconds or beats, ≥ 0
+  double value; /**< Seconds or beats, ≥ 0 */
   bool is_beats;
 } ScoreSpan;
 
 /** A map in the making; all zero is a valid one, without changes. */
 typedef struct {
-  Bytes changes; ///< As they were added
-  Bytes pieces;  ///< Of constant tempo, in order of time
+  Bytes changes; /**< As they were added */
+  Bytes pieces;  /**< Of constant tempo, in order of time */
 } ScoreTempo;
 
 /** Change the tempo [beats a minute, > 0] from a moment on; of two changes at one moment the one

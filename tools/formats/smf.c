@@ -32,7 +32,7 @@ static const char* const notes[SMF_N_NOTES] = {
  */
 typedef struct {
   uint64_t tick;
-  size_t at; // Its bytes in Reader.bytes; in the order of the file
+  size_t at; /* Its bytes in Reader.bytes; in the order of the file */
   uint32_t size;
   uint32_t pattern;
 } Item;
@@ -56,19 +56,18 @@ typedef struct {
   size_t at;
   size_t header_at;
   uint32_t type;
-  uint32_t n_announced;     // Tracks
-  double quarters_per_tick; // 0: the length of a tick does not depend on the tempo
-  double tick_s;            // Before any change of tempo
-
+  uint32_t n_announced;     /* Tracks */
+  double quarters_per_tick; /* 0: the length of a tick does not depend on the tempo */
+  double tick_s;            /* Before any change of tempo */
   /* The track that is read */
-  uint32_t track; // From 1; 0 in the header
+  uint32_t track; /* From 1; 0 in the header */
   size_t end;
   uint64_t tick;
-  unsigned status; // Running status, 0 for none
-  bool is_stale;   // A meta event or sysex came after it
-  bool is_cut;     // The track is longer than the file
-  bool is_over;    // Nothing more of it is to be read
-  Bytes sysex;     // What is there of a system exclusive message
+  unsigned status; /* Running status, 0 for none */
+  bool is_stale;   /* A meta event or sysex came after it */
+  bool is_cut;     /* The track is longer than the file */
+  bool is_over;    /* Nothing more of it is to be read */
+  Bytes sysex;     /* What is there of a system exclusive message */
   size_t sysex_at;
 
   /* What came of it */
@@ -475,7 +474,7 @@ static int compare(const void* a, const void* b) {
 static void place(const Reader* self, const Item* items, size_t n_items, Smf* smf) {
   uint32_t pattern = items[0].pattern;
   double tick_s = self->tick_s;
-  double from_s = 0.0; // Of the change of tempo, or the pattern
+  double from_s = 0.0; /* Of the change of tempo, or the pattern */
   uint64_t from = 0;
   for (size_t i = 0; i < n_items; ++i) {
     const Item* const item = &items[i];
@@ -519,7 +518,7 @@ static void write_notes(const Reader* self, Smf* smf) {
 static Smf* make(Reader* self) {
   Item* const items = (Item*)(void*)self->items.data;
   const size_t n_items = self->items.size / sizeof(Item);
-  assert(n_items > 0); // The end of a track is one
+  assert(n_items > 0); /* The end of a track is one */
   Smf* const smf = calloc(1, sizeof(Smf));
   if (smf) {
     smf->events = calloc(n_items, sizeof(SmfEvent));

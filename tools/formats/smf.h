@@ -17,16 +17,16 @@
 
 /** What may be said of a file that is read all the same, each once. */
 typedef enum {
-  SMF_LEADING,   ///< Up to 128 bytes of other data before the header: skipped
-  SMF_TRACKS,    ///< Another number of tracks than the header says: all are read
-  SMF_TYPE_0,    ///< Several tracks in a file of type 0: read as if of type 1
-  SMF_PATTERNS,  ///< Type 2: its patterns come one after the other
-  SMF_CUT,       ///< A track longer than the file: read to End of Track, or the last whole event
-  SMF_NO_END,    ///< A track without End of Track: it ends with its last event
-  SMF_RUNNING,   ///< Running status after a meta event or sysex: that before it
-  SMF_DATA,      ///< A data byte over 0x7f: taken for 0x7f
-  SMF_REAL_TIME, ///< A real-time byte, as an event or in a message: left out
-  SMF_SYSEX,     ///< A system exclusive message without its end, or none at all: left out
+  SMF_LEADING,   /**< Up to 128 bytes of other data before the header: skipped */
+  SMF_TRACKS,    /**< Another number of tracks than the header says: all are read */
+  SMF_TYPE_0,    /**< Several tracks in a file of type 0: read as if of type 1 */
+  SMF_PATTERNS,  /**< Type 2: its patterns come one after the other */
+  SMF_CUT,       /**< A track longer than the file: read to End of Track, or the last whole event */
+  SMF_NO_END,    /**< A track without End of Track: it ends with its last event */
+  SMF_RUNNING,   /**< Running status after a meta event or sysex: that before it */
+  SMF_DATA,      /**< A data byte over 0x7f: taken for 0x7f */
+  SMF_REAL_TIME, /**< A real-time byte, as an event or in a message: left out */
+  SMF_SYSEX,     /**< A system exclusive message without its end, or none at all: left out */
   SMF_N_NOTES
 } SmfNote;
 
@@ -35,18 +35,18 @@ enum { SMF_NOTE_SIZE = 160 };
 
 /** One message. */
 typedef struct {
-  double time_s;        ///< From the start of the song [s], >= 0
-  uint32_t size;        ///< [bytes], > 0
-  const uint8_t* bytes; ///< With its status byte, as on the wire; in Smf.bytes
+  double time_s;        /**< From the start of the song [s], >= 0 */
+  uint32_t size;        /**< [bytes], > 0 */
+  const uint8_t* bytes; /**< With its status byte, as on the wire; in Smf.bytes */
 } SmfEvent;
 
 /** A song. */
 typedef struct {
-  SmfEvent* events; ///< In order of time; at the same time in order of tracks, then of the file
+  SmfEvent* events; /**< In order of time; at the same time in order of tracks, then of the file */
   size_t n_events;
-  double duration_s; ///< To the latest End of Track [s], not before the last event
-  uint8_t* bytes;    ///< Of all events
-  char note[SMF_N_NOTES][SMF_NOTE_SIZE]; ///< "track T, byte B: found …", one line, or empty
+  double duration_s; /**< To the latest End of Track [s], not before the last event */
+  uint8_t* bytes;    /**< Of all events */
+  char note[SMF_N_NOTES][SMF_NOTE_SIZE]; /**< "track T, byte B: found …", one line, or empty */
 } Smf;
 
 /**

@@ -17,14 +17,14 @@ static const uint64_t MAX_WAV_BYTES = UINT32_MAX - 4096;
 struct SoundFile {
   SNDFILE* sound;
   char* path;
-  char* part; // The temporary name
+  char* part; /* The temporary name */
   uint64_t bytes_left;
   unsigned bytes_per_frame;
 };
 
 typedef struct {
   const char* ending;
-  int format; // Without depth
+  int format; /* Without depth */
   unsigned usual_bits;
   unsigned max_bits;
 } Kind;

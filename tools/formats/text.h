@@ -18,21 +18,22 @@ enum { TEXT_QUOTE_SIZE = 64 };
 
 /** A place in a text. */
 typedef struct {
-  const char* path; ///< For messages
-  char* error;      ///< Where they go
+  const char* path; /**< For messages */
+  char* error;      /**< Where they go */
   size_t error_size;
-  Bytes bytes;           ///< The text; words in it are ended by NUL as they are found
-  size_t next;           ///< Where the next line begins
-  char* at;              ///< In the line, which is ended by NUL
-  size_t length;         ///< Of the line [bytes]
-  uint32_t line;         ///< Its number, from 1; 0 before the first
-  bool is_comment_apart; ///< Whether '#' begins a comment only where a word could begin; false at
-                         ///< first: it does so everywhere
+  Bytes bytes;   /**< The text; words in it are ended by NUL as they are found */
+  size_t next;   /**< Where the next line begins */
+  char* at;      /**< In the line, which is ended by NUL */
+  size_t length; /**< Of the line [bytes] */
+  uint32_t line; /**< Its number, from 1; 0 before the first */
+  bool
+      is_comment_apart; /**< Whether '#' begins a comment only where a word could begin; false at */
+                        /**< first: it does so everywhere */
 } Text;
 
 /** What a number may be. */
 typedef struct {
-  const char* expected; ///< Completes "found …, expected …"
+  const char* expected; /**< Completes "found …, expected …" */
   double min;
   double max;
   bool is_whole;

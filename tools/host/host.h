@@ -22,20 +22,20 @@ typedef struct Host Host;
 
 /** What a host is made with; fields left zero take the default named. */
 typedef struct {
-  double rate_hz;       ///< Sample rate [Hz], > 0
-  uint32_t max_block;   ///< Most frames a run may have [frames], > 0
-  const char* bundle;   ///< Looked in first, and nowhere else if the plugin is there; or NULL
-  const char* lv2_path; ///< Where to look; NULL for LV2_PATH, or LV2's usual places
-  bool is_bare;         ///< Offer urid:map alone, as the poorest host would
-  bool is_silent;       ///< Drop what the plugin logs instead of writing it to stderr
+  double rate_hz;       /**< Sample rate [Hz], > 0 */
+  uint32_t max_block;   /**< Most frames a run may have [frames], > 0 */
+  const char* bundle;   /**< Looked in first, and nowhere else if the plugin is there; or NULL */
+  const char* lv2_path; /**< Where to look; NULL for LV2_PATH, or LV2's usual places */
+  bool is_bare;         /**< Offer urid:map alone, as the poorest host would */
+  bool is_silent;       /**< Drop what the plugin logs instead of writing it to stderr */
 } HostConfig;
 
 /** What the Turtle says of a control port. */
 typedef struct {
-  float min;       ///< NAN if not said
-  float max;       ///< NAN if not said
-  float initial;   ///< The default; if not said, what is nearest 0 in the range
-  bool is_integer; ///< lv2:integer, lv2:enumeration or lv2:toggled
+  float min;       /**< NAN if not said */
+  float max;       /**< NAN if not said */
+  float initial;   /**< The default; if not said, what is nearest 0 in the range */
+  bool is_integer; /**< lv2:integer, lv2:enumeration or lv2:toggled */
 } HostRange;
 
 /* Life cycle */

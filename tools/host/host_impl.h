@@ -26,22 +26,22 @@ typedef enum {
 typedef struct {
   HostPortType type;
   bool is_input;
-  bool takes_midi;   ///< An atom port for midi:MidiEvent
-  char* symbol;      ///< From malloc
-  HostRange range;   ///< Of a control port
-  float value;       ///< Of a control port: what the plugin is connected to
-  float* frames;     ///< Of an audio or CV port: max_block + HOST_GUARD_FRAMES
-  LV2_Atom* atom;    ///< Of an atom port
-  uint32_t capacity; ///< Of an atom port: bytes behind the atom header
+  bool takes_midi;   /**< An atom port for midi:MidiEvent */
+  char* symbol;      /**< From malloc */
+  HostRange range;   /**< Of a control port */
+  float value;       /**< Of a control port: what the plugin is connected to */
+  float* frames;     /**< Of an audio or CV port: max_block + HOST_GUARD_FRAMES */
+  LV2_Atom* atom;    /**< Of an atom port */
+  uint32_t capacity; /**< Of an atom port: bytes behind the atom header */
 } HostPort;
 
 /** A waiting event. */
 typedef struct {
-  int64_t frame;  ///< From the start of the next run
-  LV2_URID type;  ///< What the body is
-  uint32_t size;  ///< Bytes of body
-  size_t body_at; ///< Where the body is in Host.bodies
-  bool is_raw;    ///< Goes out with the next run, whatever its frame
+  int64_t frame;  /**< From the start of the next run */
+  LV2_URID type;  /**< What the body is */
+  uint32_t size;  /**< Bytes of body */
+  size_t body_at; /**< Where the body is in Host.bodies */
+  bool is_raw;    /**< Goes out with the next run, whatever its frame */
 } HostQueued;
 
 /** A preset as found in the world. */
@@ -62,24 +62,23 @@ struct Host {
   float rate_hz;
 
   /* What it is offered */
-  Bytes uris; ///< char* each: the URI numbered 1, 2, …
+  Bytes uris; /**< char* each: the URI numbered 1, 2, … */
   bool is_silent;
   HostWorker worker;
   LV2_URID_Map map;
   LV2_URID_Unmap unmap;
   LV2_Log_Log log;
   LV2_Worker_Schedule schedule;
-  LV2_Options_Option options[HOST_N_OPTIONS]; ///< The last is all zero, as the extension wants
+  LV2_Options_Option options[HOST_N_OPTIONS]; /**< The last is all zero, as the extension wants */
   LV2_Feature features[HOST_N_FEATURES];
-  const LV2_Feature* offered[HOST_N_FEATURES + 1]; ///< At instantiate(), NULL-terminated
-
+  const LV2_Feature* offered[HOST_N_FEATURES + 1]; /**< At instantiate(), NULL-terminated */
   /* Its ports and what goes through them */
   HostPort* ports;
   uint32_t n_ports;
-  uint32_t events_in; ///< Index of the atom input that events go to, UINT32_MAX for none
-  uint32_t notify;    ///< The first atom output, the same
-  Bytes queue;        ///< HostQueued each, in order of frames, raw ones last
-  Bytes bodies;       ///< Of the events
+  uint32_t events_in; /**< Index of the atom input that events go to, UINT32_MAX for none */
+  uint32_t notify;    /**< The first atom output, the same */
+  Bytes queue;        /**< HostQueued each, in order of frames, raw ones last */
+  Bytes bodies;       /**< Of the events */
   LV2_URID sequence_type;
   LV2_URID chunk_type;
 

@@ -17,9 +17,9 @@
 
 /** When work() is called. */
 typedef enum {
-  HOST_WORK_AFTER_RUN, ///< Between two runs, as when playing live; the default
-  HOST_WORK_IN_RUN,    ///< Inside schedule_work(), as when freewheeling
-  HOST_WORK_REFUSED    ///< Never: schedule_work() answers that there is no space
+  HOST_WORK_AFTER_RUN, /**< Between two runs, as when playing live; the default */
+  HOST_WORK_IN_RUN,    /**< Inside schedule_work(), as when freewheeling */
+  HOST_WORK_REFUSED    /**< Never: schedule_work() answers that there is no space */
 } HostWork;
 
 /** A worker; all zero is one without a plugin, which refuses all work. */
@@ -27,11 +27,12 @@ typedef struct {
   const LV2_Worker_Interface* interface;
   LV2_Handle handle;
   HostWork mode;
-  bool is_running;   ///< The plugin is inside run()
-  Bytes requests;    ///< Each a uint32_t size and that many bytes
-  Bytes responses;   ///< The same
-  uint32_t n_works;  ///< Calls of work() so far
-  uint32_t n_failed; ///< Calls of work() that did not succeed, and messages lost for want of memory
+  bool is_running;  /**< The plugin is inside run() */
+  Bytes requests;   /**< Each a uint32_t size and that many bytes */
+  Bytes responses;  /**< The same */
+  uint32_t n_works; /**< Calls of work() so far */
+  uint32_t
+      n_failed; /**< Calls of work() that did not succeed, and messages lost for want of memory */
 } HostWorker;
 
 /** worker:schedule's schedule_work(); `handle` is a HostWorker. */

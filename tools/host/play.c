@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-static const float SILENCE = 1e-5F; // −100 dBFS
+static const float SILENCE = 1e-5F; /* −100 dBFS */
 static const double SILENCE_S = 0.25;
 static const double MAX_TAIL_S = 10.0;
 
@@ -44,9 +44,9 @@ typedef struct {
   const PlaySource* source;
   PlayResult* result;
   float* frames;
-  uint64_t end;   // Where to stop at the latest
-  uint64_t quiet; // Silent frames in a row
-  int shown;      // Progress [percent]; below 0: none yet
+  uint64_t end;   /* Where to stop at the latest */
+  uint64_t quiet; /* Silent frames in a row */
+  int shown;      /* Progress [percent]; below 0: none yet */
   bool is_done;
 } Play;
 

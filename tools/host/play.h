@@ -20,19 +20,19 @@ typedef struct {
   /** Write the next frames, left and right in turn, and say why in `error` where that fails. */
   bool (*run)(void* self, uint64_t at, uint32_t n, float* frames, char error[PLAY_ERROR_SIZE]);
   double rate_hz;
-  uint32_t block;      ///< Most frames that are asked for at once [frames], > 0
-  uint64_t n_frames;   ///< To its end
-  uint64_t n_tail;     ///< Most frames behind that
-  bool ends_silent;    ///< Whether a tail is over once it is silent
-  bool shows_progress; ///< On stderr
+  uint32_t block;      /**< Most frames that are asked for at once [frames], > 0 */
+  uint64_t n_frames;   /**< To its end */
+  uint64_t n_tail;     /**< Most frames behind that */
+  bool ends_silent;    /**< Whether a tail is over once it is silent */
+  bool shows_progress; /**< On stderr */
 } PlaySource;
 
 /** What came of it. */
 typedef struct {
-  uint64_t n_frames;           ///< Written [frames]
-  float peak;                  ///< Greatest magnitude of a sample, full scale is 1
-  double run_s;                ///< Time spent in the source [s]
-  char error[PLAY_ERROR_SIZE]; ///< One line, on failure
+  uint64_t n_frames;           /**< Written [frames] */
+  float peak;                  /**< Greatest magnitude of a sample, full scale is 1 */
+  double run_s;                /**< Time spent in the source [s] */
+  char error[PLAY_ERROR_SIZE]; /**< One line, on failure */
 } PlayResult;
 
 /**
@@ -49,21 +49,21 @@ bool play(const PlaySource* source, SoundFile* sound, PlayResult* result);
 
 /** An event of a song. */
 typedef struct {
-  double time_s;    ///< From the start [s], ≥ 0
-  const void* body; ///< Of its atom, as long-lived as the song
-  uint32_t size;    ///< [bytes]
+  double time_s;    /**< From the start [s], ≥ 0 */
+  const void* body; /**< Of its atom, as long-lived as the song */
+  uint32_t size;    /**< [bytes] */
 } PlayEvent;
 
 /** A song, and a host to play it. */
 typedef struct {
   Host* host;
-  double rate_hz;       ///< The host's [Hz]
-  const char* type_uri; ///< Of the atoms that are sent
+  double rate_hz;       /**< The host's [Hz] */
+  const char* type_uri; /**< Of the atoms that are sent */
   const void* events;
   size_t n_events;
-  PlayEvent (*event)(const void* events, size_t i); ///< The i-th in order of time
-  double duration_s;                                ///< To its end [s], not before the last event
-  size_t n_sent;                                    ///< Events sent so far
+  PlayEvent (*event)(const void* events, size_t i); /**< The i-th in order of time */
+  double duration_s; /**< To its end [s], not before the last event */
+  size_t n_sent;     /**< Events sent so far */
 } PlaySong;
 
 /** @return The events of a file as those of a song, good as long as the file is */

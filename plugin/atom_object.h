@@ -3,8 +3,8 @@
 
    Thread: any; real-time safe.
 */
-#ifndef HOOKE_PLUGIN_OBJECTS_H
-#define HOOKE_PLUGIN_OBJECTS_H
+#ifndef HOOKE_PLUGIN_ATOM_OBJECT_H
+#define HOOKE_PLUGIN_ATOM_OBJECT_H
 
 #include <lv2/urid/urid.h>
 
@@ -20,9 +20,9 @@ typedef struct {
 } Property;
 
 /** What class an object's body of `n_bytes` says that it has; 0 if it is cut short. */
-LV2_URID objects_class(const uint8_t* body, uint32_t n_bytes);
+LV2_URID atom_object_class(const uint8_t* body, uint32_t n_bytes);
 
 /** Find the first property `key`.  @return false if the object has none that is whole */
-bool objects_find(const uint8_t* body, uint32_t n_bytes, LV2_URID key, Property* property);
+bool atom_object_find(const uint8_t* body, uint32_t n_bytes, LV2_URID key, Property* property);
 
 #endif

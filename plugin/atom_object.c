@@ -1,4 +1,4 @@
-#include "plugin/objects.h"
+#include "plugin/atom_object.h"
 
 #include <lv2/atom/atom.h>
 
@@ -20,7 +20,7 @@ static bool next(const uint8_t* body, uint32_t n_bytes, uint32_t* offset, Proper
   return true;
 }
 
-LV2_URID objects_class(const uint8_t* body, uint32_t n_bytes) {
+LV2_URID atom_object_class(const uint8_t* body, uint32_t n_bytes) {
   LV2_Atom_Object_Body head = {0, 0};
   if (n_bytes >= sizeof(head)) {
     memcpy(&head, body, sizeof(head));
@@ -28,7 +28,7 @@ LV2_URID objects_class(const uint8_t* body, uint32_t n_bytes) {
   return head.otype;
 }
 
-bool objects_find(const uint8_t* body, uint32_t n_bytes, LV2_URID key, Property* property) {
+bool atom_object_find(const uint8_t* body, uint32_t n_bytes, LV2_URID key, Property* property) {
   uint32_t offset = (uint32_t)sizeof(LV2_Atom_Object_Body);
   while (next(body, n_bytes, &offset, property)) {
     if (property->key == key) {
