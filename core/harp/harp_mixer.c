@@ -123,7 +123,8 @@ static void take_reading(Harp* harp, const Reading* reading, uint32_t n_parts) {
   harp->apart = apart;
   for (uint32_t bus = 0; bus < HARP_BUSES; ++bus) {
     for (uint32_t t = 0; t < reading->n_taps; ++t) {
-      harp->before[bus][t] = read_now(harp, n_parts, bus, t);
+      const bool is_velocity = reading->at[t].type == PICKUP_VELOCITY;
+      harp->before[bus][t] = is_velocity ? read_now(harp, n_parts, bus, t) : 0.0f;
     }
   }
 }
@@ -230,15 +231,26 @@ static void run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_
   run_together(harp, first, n_parts, n_frames, n_taps);
 }
 
-/* Silence the buses that are about to be heard. */
-static void clear_buses(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_t n_taps) {
-  bool is_clear[HARP_BUSES] = {false};
-  for (uint32_t i = 0; i <= n_parts; ++i) {
-    const uint32_t bus = i < n_parts ? harp->buses[i] : 0;
-    for (uint32_t t = 0; t < n_taps && !is_clear[bus]; ++t) {
+/* The buses that are heard, a bit each: the first, those of strings, and those whose last sample is
+ * still to be taken away. */
+static uint32_t heard_buses(const Harp* harp, uint32_t n_parts, uint32_t n_taps) {
+  uint32_t heard = 1;
+  for (uint32_t i = 0; i < n_parts; ++i) {
+    heard |= 1u << harp->buses[i];
+  }
+  for (uint32_t bus = 1; bus < HARP_BUSES; ++bus) {
+    for (uint32_t t = 0; t < n_taps; ++t) {
+      heard |= (uint32_t)(harp->before[bus][t] != 0.0f) << bus;
+    }
+  }
+  return heard;
+}
+
+static void clear_buses(Harp* harp, uint32_t heard, uint32_t n_frames, uint32_t n_taps) {
+  for (uint32_t bus = 0; bus < HARP_BUSES; ++bus) {
+    for (uint32_t t = 0; t < n_taps && (heard >> bus & 1); ++t) {
       memset(harp->mix[bus][t], 0, n_frames * sizeof(float));
     }
-    is_clear[bus] = true;
   }
 }
 
@@ -263,18 +275,15 @@ static void add_bus(Harp* harp, uint32_t channel, const Reading* reading, uint32
 
 /* Add what each channel with a gain of its own plays to what the others do; a gain that nothing is
  * heard with goes on all the same. */
-static void add_buses(Harp* harp, uint32_t n_parts, const Reading* reading, uint32_t n_frames) {
-  bool is_heard[HARP_BUSES] = {false};
-  for (uint32_t i = 0; i < n_parts; ++i) {
-    is_heard[harp->buses[i]] = true;
-  }
+static void add_buses(Harp* harp, uint32_t heard, const Reading* reading, uint32_t n_frames) {
   differentiate(harp, 0, reading, n_frames);
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     Line* const gain = &harp->channels[channel].gain;
-    if (is_heard[1 + channel]) {
+    const bool is_heard = heard >> (1 + channel) & 1;
+    if (is_heard) {
       add_bus(harp, channel, reading, n_frames);
     }
-    for (uint32_t n = 0; !is_heard[1 + channel] && n < n_frames && gain->n_left > 0; ++n) {
+    for (uint32_t n = 0; !is_heard && n < n_frames && gain->n_left > 0; ++n) {
       (void)line_next(gain);
     }
   }
@@ -285,11 +294,12 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
   const Reading reading = reading_of(&harp->pickups);
   const uint32_t n_parts = gather(harp, &reading);
   const uint32_t n_most = harp_bridge_stretch(harp, stretch(harp, n_frames));
-  clear_buses(harp, n_parts, n_most, reading.n_taps);
   take_reading(harp, &reading, n_parts);
+  const uint32_t heard = heard_buses(harp, n_parts, reading.n_taps);
+  clear_buses(harp, heard, n_most, reading.n_taps);
   const uint32_t n = harp_bridge_run(harp, n_most, reading.n_taps);
   run_strings(harp, n_parts, n, reading.n_taps);
-  add_buses(harp, n_parts, &reading, n);
+  add_buses(harp, heard, &reading, n);
   harp_bridge_pass(harp, n);
   mix_down(harp, &reading, n, left, right);
   block_dc(harp, n, left, right);

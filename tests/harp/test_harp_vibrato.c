@@ -153,6 +153,35 @@ static void a_vibrato_begins_with_its_note(void** state) {
   harp_free(harp);
 }
 
+/* However many other gestures come meanwhile, it swings at its rate: a whole number of swings later
+ * it is where it was. */
+static void other_gestures_do_not_hurry_a_vibrato(void** state) {
+  (void)state;
+  const HarpPatch patch = harps_touched_patch(0);
+  Harp* const harp = harps_new(RATE, &patch);
+  Harp* const alone = harps_new(RATE, &patch);
+  for (int h = 0; h < 2; ++h) {
+    harp_note_on(h ? alone : harp, 0, KEY, 100);
+    harp_vibrato(h ? alone : harp, 0, 0.3);
+  }
+  double most = 0.0;
+  for (int n = 0; n < RATE; n += 48) {
+    harp_press_key(harp, 0, KEY, n % 96 ? 1e-6 : 0.0);
+    harps_run(harp, 48, NULL, NULL);
+    harps_run(alone, 48, NULL, NULL);
+    if (n > RATE / 10) {
+      const VoiceMotion* const a = &harp->strings[KEY].voice.motion;
+      const VoiceMotion* const b = &alone->strings[KEY].voice.motion;
+      const double apart = a->phase - b->phase;
+      most = fmax(most, fabs(apart - round(apart)));
+    }
+  }
+  /* Both are at the ends of their pieces, of a gesture at most. */
+  assert_within("of a swing", most, patch.vibrato_hz * (double)harp->n_gesture / RATE);
+  harp_free(alone);
+  harp_free(harp);
+}
+
 /* A host that automates something with large blocks. */
 static void slow_changes_do_not_stretch_a_vibrato(void** state) {
   (void)state;
@@ -174,6 +203,7 @@ int main(void) {
       cmocka_unit_test(pressure_swings_the_keys_that_it_is_on),
       cmocka_unit_test(a_vibrato_waits_for_notes),
       cmocka_unit_test(a_vibrato_begins_with_its_note),
+      cmocka_unit_test(other_gestures_do_not_hurry_a_vibrato),
       cmocka_unit_test(slow_changes_do_not_stretch_a_vibrato),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
