@@ -132,6 +132,7 @@ void harp_string_retune(HarpString* string, uint32_t n_glide) {
   if (!voice->is_awake || voice->is_choked) {
     return;
   }
+  voice_halt(voice);
   const double depth = vibrato_of(string);
   if (depth != voice->motion.depth.goal) {
     voice_vibrato(voice, depth);
