@@ -85,7 +85,6 @@ static void take_controls(Instrument* self, uint32_t n_frames) {
 static void render(Instrument* self, uint32_t from, uint32_t to) {
   float* const left = self->ports[PORT_OUT_LEFT];
   float* const right = self->ports[PORT_OUT_RIGHT];
-  self->is_fresh = self->is_fresh && from == to;
   while (from < to) {
     const uint32_t n = to - from < INSTRUMENT_FRAMES ? to - from : INSTRUMENT_FRAMES;
     self->kind->run(self->player, n, self->left, self->right);
@@ -110,12 +109,10 @@ static void write_report(Instrument* self) {
 }
 
 static void play_midi(Instrument* self, const Event* event) {
-  self->is_fresh = false;
   channels_play(&self->channels, event->body, event->size, self->is_muted);
 }
 
 static void play_own(Instrument* self, const Event* event) {
-  self->is_fresh = false;
   self->kind->play_event(self->player, event->body, event->size, self->is_muted);
 }
 

@@ -6,14 +6,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Half the width of the softest finger and of the hardest pick, as fractions of the length. */
-static const double SOFTEST = 0.3;
-static const double HARDEST = 0.005;
-
-/* Half the width below which a raised cosine would excite the mode that the masses cannot carry
- * [masses]. */
-static const double NARROWEST = 2.0;
-
 static double raised_cosine(double distance) {
   return fabs(distance) < 1.0 ? 0.5 + 0.5 * cos(PI * distance) : 0.0;
 }
@@ -61,7 +53,8 @@ static double energy_of(const Pushes* pushes, const Chain* chain) {
 
 double pluck_add(Chain* chain, Pluck pluck, double angle1) {
   const double length = chain->n_masses + 1.0;
-  const double width = fmax(NARROWEST, length * SOFTEST * pow(HARDEST / SOFTEST, pluck.hardness));
+  const double width = fmax(
+      PLUCK_NARROWEST, length * PLUCK_SOFTEST * pow(PLUCK_HARDEST / PLUCK_SOFTEST, pluck.hardness));
   const double centre = fmin(fmax(pluck.place * length, 1.0), (double)chain->n_masses);
   Pushes pushes;
   pushes.first = (int64_t)fmax(1.0, ceil(centre - width));

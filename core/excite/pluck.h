@@ -8,6 +8,18 @@
 
 #include "core/string/chain.h"
 
+/** How much harder than a pluck of the usual force the hardest one is, of 0 to 1: forces as
+ * velocities are, of 1; and what full brightness does to hardness. */
+#define PLUCK_HARDER 0.25
+#define PLUCK_USUAL_FORCE 0.75
+#define PLUCK_BRIGHTER 0.4
+
+/** Half the width of the softest finger and of the hardest pick, as fractions of the length, and
+ * the least [masses]: a narrower raised cosine would excite the mode that masses cannot carry. */
+#define PLUCK_SOFTEST 0.3
+#define PLUCK_HARDEST 0.005
+#define PLUCK_NARROWEST 2.0
+
 /** A pluck; where, with what, and how far. */
 typedef struct {
   double place;    /**< Fraction of the length, 0 to 1; kept off the walls by one mass */

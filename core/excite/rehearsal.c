@@ -1,6 +1,7 @@
 #include "core/excite/rehearsal.h"
 
 #include "core/base/maths.h"
+#include "core/excite/pluck.h"
 #include "core/string/tuning.h"
 
 #include <math.h>
@@ -30,11 +31,6 @@ static const double LEAST_PLACE = 0.05;
 
 /* How far a hammer must fly back, of the amplitude, for the string not to reach it. */
 static const double GONE = 1.0;
-
-/* The finger of pluck_add(): half its width, and the least [masses]. */
-static const double SOFTEST_FINGER = 0.3;
-static const double HARDEST_FINGER = 0.005;
-static const double NARROWEST_FINGER = 2.0;
 
 /* A string of few masses. */
 typedef struct {
@@ -136,9 +132,8 @@ static void throw_at(HammerMake* make, double velocity) {
  * which a wall may cut.  Few masses are all that is under the finger. */
 static double share_of_pluck(uint32_t n_masses, const Strike* wanted) {
   const double length = n_masses + 1.0;
-  const double width =
-      fmax(NARROWEST_FINGER / length,
-           SOFTEST_FINGER * pow(HARDEST_FINGER / SOFTEST_FINGER, wanted->hardness));
+  const double width = fmax(PLUCK_NARROWEST / length,
+                            PLUCK_SOFTEST * pow(PLUCK_HARDEST / PLUCK_SOFTEST, wanted->hardness));
   const double centre = kept_off_walls(wanted->place, n_masses);
   const bool is_few = n_masses <= MOST_MASSES;
   const double spacing = is_few ? 1.0 / length : 2.0 * width / MOST_MASSES;

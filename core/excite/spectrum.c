@@ -5,13 +5,8 @@
 
 #include <math.h>
 
-/* The finger of pluck_add(): half its width, and the least [masses]. */
-static const double SOFTEST = 0.3;
-static const double HARDEST = 0.005;
-static const double NARROWEST = 2.0;
-
-/* It is taken to be so much wider than it is: a mode of just its width has a pole at both edges,
- * and the narrowest is as wide as one of an odd number's. */
+/* The finger of pluck_add() is taken to be so much wider than it is: a mode of just its width has a
+ * pole at both edges, and the narrowest is as wide as one of an odd number's. */
 static const double WIDER = 1.0005;
 
 /*
@@ -83,7 +78,8 @@ static uint32_t sum_few(uint32_t n_masses, double centre, double width, double* 
 Spectrum spectrum_of_pluck(uint32_t n_masses, Pluck pluck, double angle1) {
   const double step = 1.0 / (n_masses + 1.0);
   const double width =
-      WIDER * fmax(NARROWEST * step, SOFTEST * pow(HARDEST / SOFTEST, pluck.hardness));
+      WIDER * fmax(PLUCK_NARROWEST * step,
+                   PLUCK_SOFTEST * pow(PLUCK_HARDEST / PLUCK_SOFTEST, pluck.hardness));
   const double centre = fmin(fmax(pluck.place, step), 1.0 - step);
   const double from = fmax(-1.0, -centre / width);
   const double to = fmin(1.0, (1.0 - centre) / width);

@@ -9,10 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How much harder the hardest pluck is than the one where the patch's hardness is what it says. */
-static const double FORCE_HARDNESS = 0.25;
-static const double FORCE_NEUTRAL = 0.75;
-
 /* A finger that falls or pulls off, against a pluck of the same force. */
 static const double HAMMER_GAIN = 0.4;
 static const double HAMMER_HARDNESS = 0.4;
@@ -72,7 +68,7 @@ double guitar_force(uint32_t velocity) {
 }
 
 double guitar_hardness(double hardness, double force) {
-  const double harder = FORCE_HARDNESS * (sqrt(fabs(force)) - FORCE_NEUTRAL);
+  const double harder = PLUCK_HARDER * (sqrt(fabs(force)) - PLUCK_USUAL_FORCE);
   return clamp(hardness + harder, 0.0, 1.0);
 }
 

@@ -28,8 +28,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** Largest displacement of one string plucked with force 1, at level 1. */
-#define GUITAR_NOTE_PEAK 0.25
+/** See VOICE_NOTE_PEAK. */
+#define GUITAR_NOTE_PEAK VOICE_NOTE_PEAK
 
 /** Force of a pluck by the velocity of a key, 1 to 127: its square, so that loudness is as in the
  * harp. */

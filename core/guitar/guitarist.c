@@ -11,9 +11,6 @@ static const double TOUCH_PERIODS = 20.0;
 static const double LEAST_TOUCH_S = 0.03;
 static const double MOST_TOUCH_S = 0.4;
 
-/* What full brightness does to hardness. */
-static const double BRIGHTNESS_HARDNESS = 0.4;
-
 static const uint32_t MOST_VELOCITY = 127;
 
 static const GuitarPatch USUAL = {
@@ -31,7 +28,7 @@ static double touch_s(const Guitarist* guitarist, uint32_t key) {
 static double hardness_of(const Guitarist* guitarist, uint32_t channel, uint32_t velocity) {
   const double brightness = guitarist->channels[channel].brightness;
   const double usual = guitar_hardness(guitarist->hardness, guitar_force(velocity));
-  const double hardness = usual + BRIGHTNESS_HARDNESS * brightness;
+  const double hardness = usual + PLUCK_BRIGHTER * brightness;
   return brightness == 0.0 ? (double)NAN : fmin(fmax(hardness, 0.0), 1.0);
 }
 

@@ -7,9 +7,6 @@ static const double PULL_OFF = 0.5;
 
 static const double VIBRATO_HZ = 5.5;
 
-/* Vibrato that full pressure asks for [semitones]. */
-static const double PRESSED_VIBRATO = 0.5;
-
 static uint32_t bit(uint32_t channel) {
   return UINT32_C(1) << channel;
 }
@@ -77,7 +74,7 @@ bool guitarist_string_is_pedalled(GuitaristHand hand) {
 void guitarist_string_feel(GuitaristHand hand, uint32_t channel) {
   const GuitaristChannel* const c = &hand.channels[channel];
   const double pressure = fmax(c->pressure, hand.string->leaned_on);
-  const GuitaristTouch touch = {c->bend, c->vibrato + PRESSED_VIBRATO * pressure, c->gain};
+  const GuitaristTouch touch = {c->bend, c->vibrato + VOICE_PRESSED_VIBRATO * pressure, c->gain};
   GuitaristTouch* const has = &hand.string->touch;
   if (touch.bend != has->bend) {
     act(hand, GUITAR_BEND, touch.bend, 0.0, 0.0);

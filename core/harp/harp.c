@@ -11,13 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How much harder the hardest velocity plucks than the one where the patch's hardness is what it
- * says. */
-static const double VELOCITY_HARDNESS = 0.25;
-static const double VELOCITY_NEUTRAL = 0.75;
-
-/* What brightness does to hardness, and the soft pedal to it and to loudness. */
-static const double BRIGHTNESS_HARDNESS = 0.4;
+/* What the soft pedal does to hardness, and to loudness. */
 static const double SOFT_HARDNESS = -0.2;
 static const double SOFT_GAIN = 0.6;
 
@@ -138,8 +132,8 @@ static bool is_still(const Harp* harp) {
 /* What a channel makes of a velocity. */
 static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t velocity) {
   const double force = velocity / 127.0;
-  const double harder = VELOCITY_HARDNESS * (force - VELOCITY_NEUTRAL) +
-                        BRIGHTNESS_HARDNESS * channel->touch.brightness +
+  const double harder = PLUCK_HARDER * (force - PLUCK_USUAL_FORCE) +
+                        PLUCK_BRIGHTER * channel->touch.brightness +
                         SOFT_HARDNESS * channel->softness;
   const double softened = 1.0 - (1.0 - SOFT_GAIN) * channel->softness;
   return (Pluck){

@@ -19,8 +19,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** Largest displacement of one string plucked with full velocity, at level 1. */
-#define HARP_NOTE_PEAK 0.25
+/** See VOICE_NOTE_PEAK. */
+#define HARP_NOTE_PEAK VOICE_NOTE_PEAK
 
 /**
    Make a harp at rest.

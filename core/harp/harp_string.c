@@ -14,9 +14,6 @@ static const double FARTHEST_BOW = 0.15;
 static const double BOW_ATTACK_S = 0.04;
 static const double BOW_RELEASE_S = 0.03;
 
-/* Vibrato that full pressure asks for [semitones]. */
-static const double PRESSED_VIBRATO = 0.5;
-
 /* How the channel's brightness moves the loss between the masses: towards a tenth of it, or up, on
  * a scale of octaves, to its fourth root. */
 static const double BRIGHTEST_LOSS = 0.1;
@@ -65,7 +62,8 @@ static double pressure_of(const HarpString* string) {
 }
 
 static double vibrato_of(const HarpString* string) {
-  const double pressed = string->voice.bow.is_active ? 0.0 : PRESSED_VIBRATO * pressure_of(string);
+  const double pressed =
+      string->voice.bow.is_active ? 0.0 : VOICE_PRESSED_VIBRATO * pressure_of(string);
   return string->touch.vibrato + pressed;
 }
 

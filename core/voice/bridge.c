@@ -12,7 +12,7 @@ static const double BRIDGE_HZ = 60.0;
 static const double BRIDGE_ZETA = 0.5;
 
 /* Of the rate: where symplectic Euler still makes of a bridge what it is meant to be. */
-static const double MOST_BRIDGE_ANGLE = 2.0 * 3.14159265358979323846 / 16.0;
+static const double MOST_BRIDGE_ANGLE = 2.0 * PI / 16.0;
 
 static const double MOST_MASS = 0.01;
 static const double MASS_HALVED_HZ = 110.0;

@@ -36,7 +36,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** τ of a string that a hand chokes [s]. */
+/** Largest displacement of one string plucked with full force, at level 1. */
+#define VOICE_NOTE_PEAK 0.25
+
+/** Vibrato that full pressure on what is not bowed asks for [semitones]. */
+#define VOICE_PRESSED_VIBRATO 0.5
+
+/** τ of a string that is choked [s]. */
 #define VOICE_CHOKE_S 0.005
 
 /** What a player's gesture takes [s], and the fewest frames: a string must have the time to follow

@@ -53,6 +53,15 @@ END
 wrong=$(rooms "$HOOKE_SOURCE" 2>&1) || fail 'the includes could not be read'
 same "$wrong" '' 'includes'
 
+# callers WORD: the files of the plugins and of the players' room that call a function of that name.
+callers() {
+    (cd "$HOOKE_SOURCE" && grep -lE "\\b$1[a-z_]*\\(" plugin/*.c core/play/*.c) | tr '\n' ' '
+}
+
+same "$(callers harp_)" 'plugin/strings.c ' 'callers of the harp'
+same "$(callers 'guitar(ist)?_(new|reset|performance|run|set)')" 'plugin/guitar.c ' 'callers of the guitar'
+same "$(callers midi_read)" 'core/play/channels.c core/play/midi.c ' 'where MIDI is read'
+
 # A way up, a circle and an unknown room are seen.
 mkdir -p up/core/attic up/core/base up/core/string
 touch up/core/attic/x.c

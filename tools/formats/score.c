@@ -42,10 +42,6 @@ static const double USUAL_RATE_HZ = 5.0;
 static const double USUAL_SPREAD_S = 0.02;
 static const double USUAL_TOUCH_S = 0.15;
 
-/* Half the width of the softest finger and of the hardest pick, as in core/excite/pluck.c. */
-static const double SOFTEST = 0.3;
-static const double HARDEST = 0.005;
-
 enum { LIST_SIZE = 160, NO_LENGTH = -1 };
 
 /* When a line acts. */
@@ -303,7 +299,8 @@ static double value_or(const ScoreLine* line, Option option, double otherwise) {
 /* The exciter makes a finger of hardness q half as wide as 0.3 (0.005 / 0.3)^q, all of it twice
  * that. */
 static double hardness_of(double width) {
-  return fmin(fmax(log(width / 2.0 / SOFTEST) / log(HARDEST / SOFTEST), 0.0), 1.0);
+  return fmin(fmax(log(width / 2.0 / PLUCK_SOFTEST) / log(PLUCK_HARDEST / PLUCK_SOFTEST), 0.0),
+              1.0);
 }
 
 /* Events */
