@@ -1,6 +1,7 @@
 /* Keep a plugin's state in a directory, as jalv does and as it reads it.
 
      keep URI PRESET DIRECTORY [SYMBOL=VALUE]... [scale=FILE.scl] */
+#include "tests/support/host_inside.h"
 #include "tests/support/host_state.h"
 #include "tests/support/scale_host.h"
 

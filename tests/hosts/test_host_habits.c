@@ -2,6 +2,7 @@
  * outside, or sound otherwise. */
 #include "tests/support/guitar_host.h"
 #include "tests/support/habits.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/host_state.h"
 #include "tests/support/measure.h"
 #include "tests/support/scale_host.h"

@@ -3,6 +3,7 @@
 #include "plugin/guitar_ports.h"
 #include "plugin/strings_ports.h"
 #include "tests/support/guitar_host.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/pins.h"
 
 #include <lv2/midi/midi.h>

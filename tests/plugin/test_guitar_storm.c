@@ -2,6 +2,7 @@
  * finite and bounded, nothing sticks, and all strings play on in tune. */
 #include "tests/support/guitar_host.h"
 #include "tests/support/guitar_storm.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/measure.h"
 #include "tests/support/oracle.h"
 

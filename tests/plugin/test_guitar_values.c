@@ -2,6 +2,7 @@
 #include "core/base/limiter.h"
 #include "plugin/guitar_ports.h"
 #include "tests/support/guitar_host.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/measure.h"
 #include "tests/support/random.h"
 

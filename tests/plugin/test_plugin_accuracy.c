@@ -1,5 +1,6 @@
 /* The promise of Hooke Strings, measured on its sound: exactly the pitch and exactly the decay that
  * were asked for. */
+#include "tests/support/host_inside.h"
 #include "tests/support/measure.h"
 #include "tools/host/host.h"
 

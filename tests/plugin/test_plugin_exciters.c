@@ -1,6 +1,7 @@
 /* Hooke Strings struck and bowed, through a host: in tune, in time, and about as loud as plucked.
  */
 #include "tests/support/harps.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/loudness.h"
 #include "tests/support/measure.h"
 #include "tests/support/oracle.h"

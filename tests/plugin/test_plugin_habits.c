@@ -1,6 +1,7 @@
 /* What hosts do, each of them somewhere: none of it may crash, reach outside, or change the sound.
  * What has broken other plugins is in test_host_habits.c, for both of ours. */
 #include "plugin/strings_ports.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/measure.h"
 #include "tests/support/strings_host.h"
 

@@ -1,5 +1,6 @@
 /* What the Turtle tells a host that draws a panel by itself: names, groups and their order read
  * well.  Hosts that draw ports by their index cannot be helped, for that never changes. */
+#include "tests/support/host_inside.h"
 #include "tests/support/panel.h"
 #include "tests/support/plugins.h"
 

@@ -1,4 +1,5 @@
 /* What the Turtle tells a host of values: units, words, scales and steps, and who may move them. */
+#include "tests/support/host_inside.h"
 #include "tests/support/panel.h"
 #include "tests/support/plugins.h"
 

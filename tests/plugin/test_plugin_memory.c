@@ -1,6 +1,7 @@
 /* Buffers as hosts hand them over: at odd places, too small, and with sequences that lie.  Each is
  * as long as it says, so that a memory checker sees a byte too far. */
 #include "plugin/strings_ports.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/scale_host.h"
 
 #include <lv2/atom/atom.h>

@@ -1,6 +1,7 @@
 /* The ports in three places, the list below, plugin/strings_ports.h and the Turtle, are one:
  * sessions are stored by symbol and automation by index, so this list only ever grows. */
 #include "plugin/strings_ports.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/pins.h"
 #include "tests/support/strings_host.h"
 

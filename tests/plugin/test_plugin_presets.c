@@ -1,5 +1,6 @@
 /* Every preset loads, says what it is, is in range and in tune, and sounds like no other; and what
  * a session saves is what it gets back. */
+#include "tests/support/host_inside.h"
 #include "tests/support/host_state.h"
 #include "tests/support/loudness.h"
 #include "tests/support/measure.h"

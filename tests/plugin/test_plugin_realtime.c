@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "tests/support/guitar_host.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/host_state.h"
 #include "tests/support/random.h"
 #include "tests/support/scale_host.h"

@@ -1,4 +1,5 @@
 /* Keys sound as the player's tuning files say: through a host, measured on the sound. */
+#include "tests/support/host_inside.h"
 #include "tests/support/measure.h"
 #include "tests/support/oracle.h"
 #include "tests/support/scale_host.h"

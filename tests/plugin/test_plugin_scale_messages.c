@@ -1,4 +1,5 @@
 /* What a panel says of the tuning files, and what it is told. */
+#include "tests/support/host_inside.h"
 #include "tests/support/host_state.h"
 #include "tests/support/scale_host.h"
 

@@ -1,6 +1,7 @@
 /* Tuning files in sessions and presets. */
 #define _POSIX_C_SOURCE 200809L
 
+#include "tests/support/host_inside.h"
 #include "tests/support/host_state.h"
 #include "tests/support/scale_host.h"
 

@@ -1,5 +1,6 @@
 /* Whatever comes in, in whatever blocks: what goes out is finite and bounded, no string is near its
  * limit, and nothing sticks. */
+#include "tests/support/host_inside.h"
 #include "tests/support/measure.h"
 #include "tests/support/oracle.h"
 #include "tests/support/random.h"

@@ -1,5 +1,6 @@
 /* What a host writes into a control port, be it out of range, no number or nothing at all. */
 #include "plugin/strings_ports.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/strings_host.h"
 
 #include <math.h>

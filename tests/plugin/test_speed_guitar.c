@@ -1,4 +1,5 @@
 /* What Hooke Guitar costs. */
+#include "tests/support/host_inside.h"
 #include "tests/support/speed.h"
 #include "tools/host/host.h"
 

@@ -1,4 +1,5 @@
 /* What Hooke Strings costs. */
+#include "tests/support/host_inside.h"
 #include "tests/support/speed.h"
 #include "tools/host/host.h"
 

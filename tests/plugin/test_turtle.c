@@ -1,6 +1,7 @@
 /* What a strict linter of LV2 asks of a plugin's Turtle, beside its ports, their words and their
  * syntax, which have tests of their own. */
 #include "tests/support/guitar_host.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/panel.h"
 #include "tests/support/plugins.h"
 

@@ -1,4 +1,5 @@
 #include "tests/support/guitar_host.h"
+#include "tests/support/host_inside.h"
 
 #include <math.h>
 #include <setjmp.h>

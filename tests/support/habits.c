@@ -1,6 +1,7 @@
 #include "tests/support/habits.h"
 
 #include "tests/support/guitar_host.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/host_state.h"
 #include "tests/support/measure.h"
 #include "tests/support/scale_host.h"

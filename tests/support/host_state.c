@@ -1,4 +1,5 @@
 #include "tests/support/host_state.h"
+#include "tests/support/host_inside.h"
 
 #include <lv2/atom/atom.h>
 #include <lv2/state/state.h>

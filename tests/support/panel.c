@@ -1,5 +1,6 @@
 #include "tests/support/panel.h"
 
+#include "tests/support/host_inside.h"
 #include "tests/support/plugins.h"
 
 #include <lv2/core/lv2.h>

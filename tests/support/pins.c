@@ -1,4 +1,5 @@
 #include "tests/support/pins.h"
+#include "tests/support/host_inside.h"
 
 #include <lv2/port-groups/port-groups.h>
 #include <lv2/port-props/port-props.h>

@@ -1,4 +1,5 @@
 #include "tests/support/presets.h"
+#include "tests/support/host_inside.h"
 
 #include <lv2/core/lv2.h>
 #include <lv2/presets/presets.h>

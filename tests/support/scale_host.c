@@ -2,6 +2,7 @@
 
 #include "tests/support/scale_host.h"
 
+#include "tests/support/host_inside.h"
 #include "tests/support/scala.h"
 
 #include <lv2/atom/forge.h>

@@ -1,6 +1,7 @@
 #include "tests/support/soak.h"
 
 #include "tests/support/guitar_host.h"
+#include "tests/support/host_inside.h"
 #include "tests/support/measure.h"
 #include "tools/bench/bench_clock.h"
 

@@ -1,5 +1,6 @@
 #include "tests/support/strings_host.h"
 
+#include "tests/support/host_inside.h"
 #include "tests/support/measure.h"
 #include "tests/support/oracle.h"
 

@@ -224,12 +224,6 @@ static bool init(Host* host, const char* plugin_uri, const HostConfig* config) {
   return instantiate(host, config->rate_hz);
 }
 
-Host* host_new(
-    const char* plugin_uri, double rate_hz, uint32_t max_block, char* error, size_t error_size) {
-  const HostConfig config = {.rate_hz = rate_hz, .max_block = max_block};
-  return host_new_with(plugin_uri, &config, error, error_size);
-}
-
 Host* host_new_with(const char* plugin_uri,
                     const HostConfig* config,
                     char* error,
@@ -290,20 +284,8 @@ LilvInstance* host_instance(Host* host) {
   return host->instance;
 }
 
-const LilvPlugin* host_plugin(const Host* host) {
-  return host->plugin;
-}
-
-LilvWorld* host_world(Host* host) {
-  return host->world;
-}
-
 const LV2_Feature* const* host_features(const Host* host) {
   return host->offered;
-}
-
-HostWorker* host_worker(Host* host) {
-  return &host->worker;
 }
 
 void host_connect(Host* host, uint32_t port_index, void* data) {

@@ -40,21 +40,6 @@ typedef struct {
 
 /* Life cycle */
 
-/**
-   Find a plugin, instantiate it and connect every port: controls hold their defaults, the rest
-   buffers of the host's.
-
-   @param plugin_uri       For example "urn:hooke:strings"
-   @param rate_hz          Sample rate [Hz], > 0
-   @param max_block        Most frames a run may have [frames], > 0
-   @param[out] error       One line saying why, on failure; may be NULL
-   @param error_size       Room in `error` [bytes]
-   @return A host, not yet active, to be freed with host_free(); NULL if the plugin is not found,
-   requires a feature that is not offered, or does not instantiate, or when memory is out.
-*/
-Host* host_new(
-    const char* plugin_uri, double rate_hz, uint32_t max_block, char* error, size_t error_size);
-
 /** host_new() with every choice. */
 Host* host_new_with(const char* plugin_uri,
                     const HostConfig* config,
@@ -104,13 +89,6 @@ bool host_set_freewheel(Host* host, bool is_freewheeling);
 /** @return Whether a port takes events of that type. */
 bool host_takes(Host* host, const char* type_uri);
 
-/** @return The number of ports, and the symbol of one by index (NULL if there is none). */
-uint32_t host_n_ports(const Host* host);
-const char* host_port_symbol(const Host* host, uint32_t index);
-
-/** @return true if the port is a control input. */
-bool host_port_is_control_input(const Host* host, uint32_t index);
-
 /** @return What the k-th audio output got in the last run, max_block frames long; NULL if there is
  * none. */
 const float* host_output(const Host* host, uint32_t k);
@@ -132,19 +110,6 @@ bool host_midi_raw(Host* host, int64_t frame, const uint8_t* bytes, uint32_t siz
 
 /** Queue any atom, as host_midi() does; `body` has `size` bytes of the type `type_uri`. */
 bool host_atom(Host* host, uint32_t frame, const char* type_uri, const void* body, uint32_t size);
-
-/** @return What the plugin sent in the last run through its first atom output; NULL if there is no
- * such port. */
-const LV2_Atom_Sequence* host_notify(const Host* host);
-
-/**
-   Give the atom outputs another size.
-
-   @param capacity  Bytes that the plugin may write behind the atom header; 8192 at first. An
-   allocation of its own.
-   @return false when memory is out.
-*/
-bool host_set_notify_capacity(Host* host, uint32_t capacity);
 
 /** @return The number of a URI; 0 when memory is out. */
 LV2_URID host_map(Host* host, const char* uri);
@@ -180,15 +145,8 @@ void host_restore(Host* host, const LilvState* state, bool has_worker);
  * plugin itself. */
 LilvInstance* host_instance(Host* host);
 
-/** @return What lilv knows of the plugin, and all it knows. */
-const LilvPlugin* host_plugin(const Host* host);
-LilvWorld* host_world(Host* host);
-
 /** @return The features that the plugin was instantiated with, NULL-terminated. */
 const LV2_Feature* const* host_features(const Host* host);
-
-/** @return The worker: set its mode, read its counts. */
-HostWorker* host_worker(Host* host);
 
 /** Connect a port to memory of the caller's, or to NULL. */
 void host_connect(Host* host, uint32_t port_index, void* data);

@@ -185,19 +185,6 @@ bool host_takes(Host* host, const char* type_uri) {
   return is_taken;
 }
 
-uint32_t host_n_ports(const Host* host) {
-  return host->n_ports;
-}
-
-const char* host_port_symbol(const Host* host, uint32_t index) {
-  return index < host->n_ports ? host->ports[index].symbol : NULL;
-}
-
-bool host_port_is_control_input(const Host* host, uint32_t index) {
-  return index < host->n_ports && host->ports[index].type == HOST_PORT_CONTROL &&
-         host->ports[index].is_input;
-}
-
 const float* host_output(const Host* host, uint32_t k) {
   for (uint32_t i = 0; i < host->n_ports; ++i) {
     const HostPort* const port = &host->ports[i];

@@ -171,21 +171,3 @@ bool host_midi_raw(Host* host, int64_t frame, const uint8_t* bytes, uint32_t siz
 bool host_atom(Host* host, uint32_t frame, const char* type_uri, const void* body, uint32_t size) {
   return queue_event(host, frame, host_map(host, type_uri), body, size, false);
 }
-
-const LV2_Atom_Sequence* host_notify(const Host* host) {
-  const uint32_t i = host->notify;
-  return i == UINT32_MAX ? NULL : (const LV2_Atom_Sequence*)host->ports[i].atom;
-}
-
-bool host_set_notify_capacity(Host* host, uint32_t capacity) {
-  for (uint32_t i = 0; i < host->n_ports; ++i) {
-    HostPort* const port = &host->ports[i];
-    if (port->type == HOST_PORT_ATOM && !port->is_input) {
-      if (!host_resize_port(port, capacity)) {
-        return host_fail(host, "out of memory");
-      }
-      host_connect(host, i, port->atom);
-    }
-  }
-  return true;
-}
