@@ -32,13 +32,13 @@ typedef struct {
 } HarpBalance;
 
 /**
-   What `pluck`'s amplitude is to be multiplied by, for the patch's exciter, sense, pickup and
+   What `pluck`'s amplitude is to be multiplied by, for the patch's exciter, pickup type, pickup and
    spread.
 
-   Then the loudest 0.4 s have the same K-weighted power for every key, place, exciter and sense:
-   half the amplitude's square, both sides taken together, times what a fundamental as damped as
-   that of key 60 keeps of its own in 0.4 s.  So strings that are all damped more are all softer; of
-   what one dies faster than that, at most 10 dB are made up for.
+   Then the loudest 0.4 s have the same K-weighted power for every key, place, exciter and pickup
+   type: half the amplitude's square, both sides taken together, times what a fundamental as damped
+   as that of key 60 keeps of its own in 0.4 s.  So strings that are all damped more are all softer;
+   of what one dies faster than that, at most 10 dB are made up for.
 
    @param pluck  As it is given to harp_string_play()
    @return 1/HARP_BALANCE_MOST to HARP_BALANCE_MOST

@@ -66,7 +66,7 @@ static double worst_of(Span span) {
 
 static void print_span(const HarpPatch* patch, Span span) {
   print_message("  %-7s%-13s %5.1f to %4.1f dB\n", harps_exciter(patch->exciter),
-                harps_sense(patch->pickup_type), span.least, span.most);
+                harps_pickup_type(patch->pickup_type), span.least, span.most);
 }
 
 /* Over the places and keys. */

@@ -71,7 +71,7 @@ static void one_channel_has_one_string_at_a_key(void** state) {
   harp_free(harp);
 }
 
-static void a_guest_that_rings_is_left_alone(void** state) {
+static void a_spare_string_that_rings_is_left_alone(void** state) {
   (void)state;
   Harp* const harp = harp_notes_harp();
   for (uint32_t key = KEY; key < KEY + 3; ++key) {
@@ -354,7 +354,7 @@ int main(void) {
       cmocka_unit_test(two_channels_have_a_string_each_at_one_key),
       cmocka_unit_test(a_channel_lets_up_its_own_key_only),
       cmocka_unit_test(one_channel_has_one_string_at_a_key),
-      cmocka_unit_test(a_guest_that_rings_is_left_alone),
+      cmocka_unit_test(a_spare_string_that_rings_is_left_alone),
       cmocka_unit_test(a_key_that_is_up_is_taken_over),
       cmocka_unit_test(when_spare_strings_run_out_none_is_stolen),
       cmocka_unit_test(a_shared_string_sounds_until_the_last_lets_go),

@@ -152,7 +152,7 @@ static void a_bow_neither_comes_nor_goes_with_a_click(void** state) {
       run(harp, 1.7, 2.0);
       again = fmax(again, harps_largest_step(left + RATE * 3 / 2, RATE / 2) / bowed);
     }
-    print_message("  %s\n", harps_sense(patch.pickup_type));
+    print_message("  %s\n", harps_pickup_type(patch.pickup_type));
     /* Before it has found its motion a string may have a corner more, and one that is bowed again
      * while it rings has two. */
     assert_within("    largest step of the start, of the bowed wave's", start, 1.5);
@@ -190,7 +190,7 @@ static void all_sound_off_and_reset_silence_all_ways(void** state) {
       }
     }
     print_message("  %s, %s: %.3f s\n", harps_exciter(patch.exciter),
-                  harps_sense(patch.pickup_type), worst_s);
+                  harps_pickup_type(patch.pickup_type), worst_s);
     harp_free(harp);
   }
   assert_within("longest until exact silence [s]", worst_s, 0.15);

@@ -164,7 +164,7 @@ static void a_brighter_hand_plays_brighter_notes(void** state) {
 }
 
 /* Where it would click most. */
-static void a_swell_is_a_gain_and_no_step(void** state) {
+static void a_channels_gain_makes_no_step(void** state) {
   (void)state;
   const HarpPatch patch = harps_touched_patch(0);
   Harp* const harp = harps_new(RATE, &patch);
@@ -195,7 +195,7 @@ int main(void) {
       cmocka_unit_test(breath_and_pressure_are_the_bows_strength),
       cmocka_unit_test(brightness_moves_what_is_between_the_masses),
       cmocka_unit_test(a_brighter_hand_plays_brighter_notes),
-      cmocka_unit_test(a_swell_is_a_gain_and_no_step),
+      cmocka_unit_test(a_channels_gain_makes_no_step),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -150,7 +150,7 @@ static void nothing_stands_still_in_what_is_heard(void** state) {
       sums[1] += (double)right[i];
     }
     const double mean = fmax(fabs(sums[0]), fabs(sums[1])) / (MOST - RATE);
-    print_message("  %s, %s:", harps_exciter(patch.exciter), harps_sense(patch.pickup_type));
+    print_message("  %s, %s:", harps_exciter(patch.exciter), harps_pickup_type(patch.pickup_type));
     assert_within("what stands still", mean, 1e-3);
     harp_free(harp);
   }

@@ -21,21 +21,21 @@
 enum { RATE = 48000, BLOCK = 512, PLUCK = 0, STRIKE = 1, BOW = 2 };
 
 static const char* const exciters[] = {"pluck", "strike", "bow"};
-static const char* const senses[] = {"displacement", "velocity", "force"};
+static const char* const pickup_types[] = {"displacement", "velocity", "force"};
 
-static void set_way(Host* host, int exciter, int sense) {
+static void set_way(Host* host, int exciter, int pickup_type) {
   strings_set(host, "exciter", exciter);
-  strings_set(host, "sense", sense);
+  strings_set(host, "sense", pickup_type);
 }
 
-static void set_defaults(Host* host, int exciter, int sense) {
+static void set_defaults(Host* host, int exciter, int pickup_type) {
   HostRange range;
   for (uint32_t i = 0; i < host_n_ports(host); ++i) {
     if (host_range(host, host_port_symbol(host, i), &range)) {
       strings_set(host, host_port_symbol(host, i), (double)range.initial);
     }
   }
-  set_way(host, exciter, sense);
+  set_way(host, exciter, pickup_type);
 }
 
 /* Anything but what would leave nothing to measure, or nothing to be in time for. */
@@ -89,7 +89,7 @@ static void what_was_struck_or_bowed_is_exact(void** state) {
       const ToneError error = play_and_measure(host, rates_hz[r], key);
       if (!(error.cents <= 0.005) || !(error.decay <= 2e-4)) {
         print_message("%s %s key %u at %g Hz: %g cents, decay %g; ", exciters[exciter],
-                      senses[(key / 2) % 3], key, rates_hz[r], error.cents, error.decay);
+                      pickup_types[(key / 2) % 3], key, rates_hz[r], error.cents, error.decay);
         for (SettingName name = 0; name < N_SETTINGS; ++name) {
           print_message("%s %g ", settings_symbol(name),
                         (double)host_get(host, settings_symbol(name)));
@@ -208,7 +208,7 @@ static void all_nine_ways_are_about_as_loud(void** state) {
   double worst[2] = {0.0};
   Host* const host = strings_open(RATE, BLOCK);
   for (int way = 0; way < 9; ++way) {
-    print_message("  %-7s%-13s", exciters[way / 3], senses[way % 3]);
+    print_message("  %-7s%-13s", exciters[way / 3], pickup_types[way % 3]);
     set_defaults(host, way / 3, way % 3);
     for (uint32_t key = 33; key <= 96; key += 3) {
       const double lufs = loudness_of(host, key);

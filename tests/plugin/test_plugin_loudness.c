@@ -20,7 +20,7 @@ static const double PROMISED_DB = 3.0;
 static const double PROMISED_HIGH_DB = 4.5;
 
 static const char* const exciters[] = {"pluck", "strike", "bow"};
-static const char* const senses[] = {"displacement", "velocity", "force"};
+static const char* const pickup_types[] = {"displacement", "velocity", "force"};
 
 /* Far from a wall and near one. */
 static const double plucks[] = {0.07, 0.4};
@@ -56,7 +56,7 @@ static void every_way_and_place_is_as_loud(void** state) {
   for (int way = 0; way < 9; ++way) {
     strings_set(host, "exciter", way / 3);
     strings_set(host, "sense", way % 3);
-    print_message("  %-7s%-13s", exciters[way / 3], senses[way % 3]);
+    print_message("  %-7s%-13s", exciters[way / 3], pickup_types[way % 3]);
     for (int place = 0; place < 4; ++place) {
       strings_set(host, "pluck", plucks[place / 2]);
       strings_set(host, "pickup", pickups[place % 2]);

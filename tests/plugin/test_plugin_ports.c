@@ -59,12 +59,12 @@ static void the_turtle_says_what_is_pinned(void** state) {
 static void values_have_their_names(void** state) {
   static const char* const partials[] = {"Lumped", "True", "Truest"};
   static const char* const exciters[] = {"Pluck", "Strike", "Bow"};
-  static const char* const senses[] = {"Displacement", "Velocity", "Bridge Force"};
+  static const char* const pickup_types[] = {"Displacement", "Velocity", "Bridge Force"};
   (void)state;
   Host* const host = strings_open(48000.0, 64);
   pins_check_names(host, STRINGS_PORT_PARTIALS, partials, 3);
   pins_check_names(host, STRINGS_PORT_EXCITER, exciters, 3);
-  pins_check_names(host, STRINGS_PORT_SENSE, senses, 3);
+  pins_check_names(host, STRINGS_PORT_SENSE, pickup_types, 3);
   host_free(host);
 }
 

@@ -13,7 +13,7 @@ const char* harps_exciter(Exciter exciter) {
   return names[exciter];
 }
 
-const char* harps_sense(PickupType sense) {
+const char* harps_pickup_type(PickupType sense) {
   static const char* const names[] = {"displacement", "velocity", "force"};
   return names[sense];
 }

@@ -11,7 +11,7 @@ enum { HARPS_N_EXCITERS = 3, HARPS_N_SENSES = 3, HARPS_N_WAYS = 9 };
 
 /** Name of an exciter and of a sense, for print. */
 const char* harps_exciter(Exciter exciter);
-const char* harps_sense(PickupType sense);
+const char* harps_pickup_type(PickupType sense);
 
 /** All ports at their defaults, but for what plays and what is heard: the `way`-th of all nine. */
 HarpPatch harps_patch(uint32_t way);

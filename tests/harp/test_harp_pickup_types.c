@@ -186,7 +186,7 @@ static void a_new_mesh_makes_no_click(void** state) {
       const double own = largest_step(sounds[0], SWITCH - 2000, SWITCH);
       worst = fmax(worst, largest_step(sounds[0], SWITCH, SWITCH + 3) / own);
     }
-    print_message("  %s\n", harps_sense(sense));
+    print_message("  %s\n", harps_pickup_type(sense));
     assert_within("    largest step of the change, of those before", worst, 1.5);
     harp_free(harp);
   }
