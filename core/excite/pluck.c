@@ -2,6 +2,7 @@
 
 #include "core/base/maths.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -60,6 +61,7 @@ double pluck_add(Chain* chain, Pluck pluck, double angle1) {
   pushes.first = (int64_t)fmax(1.0, ceil(centre - width));
   pushes.last = (int64_t)fmin((double)chain->n_masses, floor(centre + width));
   pushes.n_masses = chain->n_masses;
+  assert(pushes.first <= pushes.last);
   double sum = 0.0;
   for (int64_t i = pushes.first; i <= pushes.last; ++i) {
     pushes.push[i] = raised_cosine(((double)i - centre) / width);

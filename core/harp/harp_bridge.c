@@ -95,6 +95,7 @@ static double force_of(const HarpBridge* bridge) {
   double force = 0.0;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
     const HarpBridgeEnd* const end = &bridge->ends[i];
+    /* It is in one of them.  NOLINTNEXTLINE(clang-analyzer-core.NullDereference) */
     force += end->give * (end->d ? *end->d : (double)*end->f);
   }
   return force;

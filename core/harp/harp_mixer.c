@@ -146,6 +146,7 @@ mix_down(Harp* harp, const Reading* reading, uint32_t n_frames, float* left, flo
   for (uint32_t n = 0; n < n_frames; ++n) {
     const float level = (float)line_next(&harp->level);
     for (uint32_t s = 0; s < reading->n_heard; ++s) {
+      /* There are two at most.  NOLINTNEXTLINE(clang-analyzer-core.NullDereference) */
       sides[s][n] = level * mix[s][n];
     }
   }

@@ -34,7 +34,7 @@ package=$(echo hooke_"$version"_*.deb)
 dpkg-deb -x "$package" unpacked
 {
     installed usr/bin usr/lib/lv2 usr/share/man | sed 's|hooke\.1$|&.gz|'
-    { (cd "$HOOKE_SOURCE" && ls README.md doc/*) | grep -v 'hooke\.1$' && printf '%s\n' changelog.gz copyright; } |
+    { (cd "$HOOKE_SOURCE" && ls README.md CONTRIBUTING.md doc/*) | grep -v 'hooke\.1$' && printf '%s\n' changelog.gz copyright; } |
         sed 's|^|usr/share/doc/hooke/|'
 } | LC_ALL=C sort >wanted
 files_below unpacked >found
