@@ -50,7 +50,8 @@ void limiter_run(Limiter* limiter, uint32_t n_frames, float* left, float* right)
     const double loudest = fmax(fabs((double)left[n]), fabs((double)right[n]));
     const double amount = line_next(&limiter->amount);
     limiter->followed = fmax(loudest, kept * limiter->followed);
-    const double gain = 1.0 + amount * (gain_of(limiter->followed) - 1.0);
+    /* Not 1 + amount (gain - 1), which loses the digits of a small gain. */
+    const double gain = (1.0 - amount) + amount * gain_of(limiter->followed);
     left[n] = (float)(gain * (double)left[n]);
     right[n] = (float)(gain * (double)right[n]);
   }

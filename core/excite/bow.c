@@ -82,12 +82,14 @@ static void settle(Bow* bow, const Meeting* m) {
   }
 }
 
-static void follow(Bow* bow) {
+/* What is given to a string in its own time is the same at any pitch. */
+static void follow(Bow* bow, const Chain* chain) {
+  bow->haste = sqrt(fmax(0.0, chain_pace(chain) / bow->pace));
   (void)line_next(&bow->strength);
   (void)line_next(&bow->drawn);
   (void)line_next(&bow->paced);
   (void)line_next(&bow->pressed);
-  bow->hair = bow->strength.value * bow->drawn.value;
+  bow->hair = bow->haste * bow->strength.value * bow->drawn.value;
   bow->is_active = !bow->is_lifted || bow->pressed.n_left > 0;
 }
 
@@ -101,10 +103,11 @@ static void move_on(Bow* bow, const Chain* chain) {
 
 /* What it does is what it did, for a strength of 1, and the roll keeps its energy. */
 static void take_over(Bow* bow, double spring) {
-  bow->rolled *= sqrt(bow->spring / spring);
-  bow->drawn.value *= bow->strength.value;
-  bow->paced.value *= bow->strength.value;
-  bow->pressed.value *= bow->strength.value;
+  const double now = bow->haste * bow->strength.value;
+  bow->rolled *= sqrt(bow->haste * bow->spring / spring);
+  bow->drawn.value *= now;
+  bow->paced.value *= now;
+  bow->pressed.value *= now;
   bow->is_lifted = false;
 }
 
@@ -143,6 +146,8 @@ void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, doubl
   line_to(&bow->drawn, speed, n_attack);
   line_to(&bow->paced, speed, n_attack);
   line_to(&bow->pressed, force, frames_of(0.5 * stroke.attack_s, rate_hz));
+  bow->pace = chain_pace(chain);
+  bow->haste = 1.0;
   bow->n_lift = frames_of(stroke.release_s, rate_hz);
   bow->spring = spring;
   bow_notice(bow, chain);
@@ -172,12 +177,12 @@ bool bow_act(Bow* bow, Chain* chain) {
   const double impedance = sqrt(chain->now.k1);
   const double beta = fmin(bow->place.value, 1.0 - bow->place.value);
   const double after = contact_velocity(chain, &contact);
-  follow(bow);
-  const double spring = impedance * bow->spring;
+  follow(bow, chain);
+  const double spring = impedance * bow->haste * bow->spring;
   const double roll = 1.0 / (impedance * ROLL + 0.5 * spring);
   const double yield = 0.5 * contact.square + roll;
-  const double force = bow->strength.value * bow->pressed.value * impedance;
-  const double pace = bow->strength.value * bow->paced.value;
+  const double force = bow->haste * bow->strength.value * bow->pressed.value * impedance;
+  const double pace = bow->haste * bow->strength.value * bow->paced.value;
   const Meeting m = {
       .free = 0.5 * (after + bow->before) - bow->hair - roll * spring * bow->rolled,
       .yield = yield,

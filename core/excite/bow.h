@@ -59,6 +59,8 @@ typedef struct {
   Line paced;      /**< Where b ends, by which v0 is measured */
   Line pressed;    /**< F, of √k1 */
   double spring;   /**< s, of √k1 */
+  double pace;     /**< Of the string when the stroke began, see chain_pace() */
+  double haste;    /**< How fast the string's clock goes against that: the bow is drawn in it */
   double before;   /**< eᵀu before the step */
   double rolled;   /**< q */
   double hair;     /**< b of the last step */

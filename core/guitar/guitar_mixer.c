@@ -1,5 +1,7 @@
 #include "core/guitar/guitar_mixer.h"
 
+#include "core/base/finite.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -74,6 +76,11 @@ static void run_string(
   }
   guitar_string_run(string, &mixer->now, n_frames, mixer->own);
   guitar_string_run(tail, &mixer->now, n_frames, mixer->own);
+  if (is_heard && !finite_all(mixer->own, n_frames)) {
+    voice_mend(&string->voice);
+    voice_mend(&tail->voice);
+    memset(mixer->own, 0, n_frames * sizeof(float));
+  }
   for (int side = 0; side < 2; ++side) {
     if (is_heard) {
       add(&pans[side], mixer->own, n_frames, mixer->sides[side]);

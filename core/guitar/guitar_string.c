@@ -138,13 +138,6 @@ static bool restring(GuitarString* string) {
   return voice_string(&string->voice, &aim, masses_wanted(string), 0);
 }
 
-/* Plucked at the beginning of a gesture, it is heard at its end: on the way the square of its
- * amplitude times its frequency stays as it is. */
-static double gesture_gain(const GuitarString* string) {
-  const Line* const slide = &string->voice.motion.slide;
-  return slide->n_left <= string->voice.n_gesture ? exp2((slide->goal - slide->value) / 24.0) : 1.0;
-}
-
 void guitar_string_init(
     GuitarString* string, const GuitarPatch* patch, double rate_hz, uint32_t phase, void* memory) {
   *string = (GuitarString){.patch = patch};
@@ -228,7 +221,6 @@ void guitar_string_pluck(GuitarString* string, Pluck pluck) {
     guitar_string_damp(string, GUITAR_RINGING, 0);
   }
   if (string->voice.is_awake || restring(string)) {
-    pluck.amplitude *= gesture_gain(string);
     voice_pluck(&string->voice, pluck);
   }
 }

@@ -201,17 +201,22 @@ uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps) {
   return n;
 }
 
-/* What others may have given a string: all of the motion there is, by their masses. */
+/* The energy that a square of the amplitude of a string is, in that of the bridge's mass. */
+static double energy_of(const Voice* voice) {
+  return voice->tie.hold.mass * chain_pace(&voice->chain);
+}
+
+/* What others may have given a string: all that was given to any. */
 static void lend(Harp* harp) {
   double sum = 0.0;
   for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
     const Voice* const voice = &harp->awake[i]->voice;
-    sum += voice->tie.hold.mass * voice->given * voice->given;
+    sum += energy_of(voice) * voice->given;
   }
   for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
     Voice* const voice = &harp->awake[i]->voice;
     if (voice->tie.hold.mass > 0.0) {
-      voice_lend(voice, sqrt(sum / voice->tie.hold.mass));
+      voice_lend(voice, sum / energy_of(voice));
     }
   }
 }
@@ -276,6 +281,12 @@ void harp_bridge_pass(Harp* harp, uint32_t n_frames) {
       wake(harp);
     }
     bridge->level *= LEVEL_KEPT;
+  }
+}
+
+void harp_bridge_mend(Harp* harp) {
+  if (!isfinite(harp->bridge.bridge.y) || !isfinite(harp->bridge.bridge.w)) {
+    rest(&harp->bridge);
   }
 }
 

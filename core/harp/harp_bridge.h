@@ -33,6 +33,9 @@ uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps);
 /** After those frames: on the grid, see who is to wake, and who may sleep. */
 void harp_bridge_pass(Harp* harp, uint32_t n_frames);
 
+/** A bridge that moves by what is not a number is at rest. */
+void harp_bridge_mend(Harp* harp);
+
 /** See bridge_headroom(); 1 where no string is tied. */
 double harp_bridge_headroom(const Harp* harp);
 

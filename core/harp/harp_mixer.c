@@ -1,5 +1,6 @@
 #include "core/harp/harp_mixer.h"
 
+#include "core/base/finite.h"
 #include "core/base/maths.h"
 #include "core/harp/harp_bridge.h"
 #include "core/string/pickup.h"
@@ -290,6 +291,26 @@ static void add_buses(Harp* harp, uint32_t heard, const Reading* reading, uint32
   }
 }
 
+static bool is_sound(const Harp* harp, uint32_t heard, uint32_t n_frames, uint32_t n_taps) {
+  bool is_sound = true;
+  for (uint32_t bus = 0; bus < HARP_BUSES; ++bus) {
+    for (uint32_t t = 0; t < n_taps && (heard >> bus & 1); ++t) {
+      is_sound = is_sound && finite_all(harp->mix[bus][t], n_frames);
+    }
+  }
+  return is_sound;
+}
+
+/* What is not a number is heard by nobody, and whose it was is silent. */
+static void mend(Harp* harp, uint32_t n_parts, uint32_t heard, uint32_t n_frames, uint32_t n_taps) {
+  for (uint32_t i = 0; i < n_parts; ++i) {
+    voice_mend(&harp->awake[i]->voice);
+  }
+  harp_bridge_mend(harp);
+  clear_buses(harp, heard, n_frames, n_taps);
+  memset(harp->before, 0, sizeof harp->before);
+}
+
 /* Run as many of `n_frames` as can be run in one go; how many they were. */
 static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* right) {
   const Reading reading = reading_of(&harp->pickups);
@@ -300,6 +321,9 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
   clear_buses(harp, heard, n_most, reading.n_taps);
   const uint32_t n = harp_bridge_run(harp, n_most, reading.n_taps);
   run_strings(harp, n_parts, n, reading.n_taps);
+  if (!is_sound(harp, heard, n, reading.n_taps)) {
+    mend(harp, n_parts, heard, n, reading.n_taps);
+  }
   add_buses(harp, heard, &reading, n);
   harp_bridge_pass(harp, n);
   mix_down(harp, &reading, n, left, right);

@@ -9,10 +9,14 @@
 /* Cells up to which a chain leaves room for another to be stepped beside it. */
 enum { SHORT_CELLS = 16 };
 
+/* Change of k1, relative, up to which a glide may as well go in even steps. */
+static const double LEAST_HASTE = 1e-4;
+
 /* The coefficients have come to their goal. */
 static void arrive(Chain* chain) {
   chain->now = chain->goal;
   chain->n_gliding = 0;
+  chain->kept = 1.0;
 }
 
 static ChainReader reader_of(const Chain* chain, ChainTap tap) {
@@ -52,7 +56,11 @@ size_t chain_size(uint32_t n_masses) {
 
 void chain_init(Chain* chain, const ChainKernel* kernel, void* memory, uint32_t n_masses) {
   assert(n_masses >= 1 && n_masses <= CHAIN_MAX_MASSES);
-  *chain = (Chain){.kernel = kernel, .memory = memory, .n_masses = n_masses};
+  *chain = (Chain){.kernel = kernel,
+                   .memory = memory,
+                   .n_masses = n_masses,
+                   .lambda1 = tuning_lambda(n_masses, 1),
+                   .kept = 1.0};
   chain_numbers_lay(chain);
 }
 
@@ -71,18 +79,23 @@ static bool is_same(StringCoefs a, StringCoefs b) {
   return a.k1 == b.k1 && a.k2 == b.k2 && a.k3 == b.k3 && a.z0 == b.z0 && a.z1 == b.z1;
 }
 
-void chain_glide(Chain* chain, StringCoefs coefs, uint32_t n_frames) {
-  if (chain->n_gliding == 0 && is_same(coefs, chain->now)) {
-    return;
-  }
-  if (n_frames == 0) {
-    chain_set(chain, coefs);
-    return;
-  }
-  const double share = 1.0 / n_frames;
+/* By how much a glide's steps grow, from one to the next, for the pitch to move evenly.  What is
+ * tied to others goes in even steps, as its tie does. */
+static double haste_of(const Chain* chain, StringCoefs goal, uint32_t n_frames) {
+  const bool is_even = chain->is_shared || !(goal.k1 > 0.0 && chain->now.k1 > 0.0);
+  return is_even ? 1.0 : pow(goal.k1 / chain->now.k1, 1.0 / n_frames);
+}
+
+static void set_out(Chain* chain, StringCoefs coefs, uint32_t n_frames) {
+  const double haste = haste_of(chain, coefs, n_frames);
+  const double more = haste - 1.0;
+  const bool is_even = fabs(more * n_frames) < LEAST_HASTE;
+  const double share = is_even ? 1.0 / n_frames : more / (coefs.k1 / chain->now.k1 - 1.0);
   chain_numbers_touch(chain);
   chain->goal = coefs;
   chain->n_gliding = n_frames;
+  chain->kept = 1.0;
+  chain->haste = is_even ? 1.0 : haste;
   chain->change = (StringCoefs){
       .k1 = (coefs.k1 - chain->now.k1) * share,
       .k2 = (coefs.k2 - chain->now.k2) * share,
@@ -90,6 +103,23 @@ void chain_glide(Chain* chain, StringCoefs coefs, uint32_t n_frames) {
       .z0 = (coefs.z0 - chain->now.z0) * share,
       .z1 = (coefs.z1 - chain->now.z1) * share,
   };
+}
+
+void chain_glide(Chain* chain, StringCoefs coefs, uint32_t n_frames) {
+  if (chain->n_gliding > 0 || !is_same(coefs, chain->now)) {
+    set_out(chain, coefs, n_frames > 0 ? n_frames : 1);
+  }
+}
+
+void chain_drain(Chain* chain, double share, uint32_t n_frames) {
+  if (chain->n_gliding == 0) {
+    set_out(chain, chain->now, n_frames > 0 ? n_frames : 1);
+  }
+  chain->kept = pow(share, 0.5 / chain->n_gliding);
+}
+
+double chain_pace(const Chain* chain) {
+  return chain_pace_of(chain->now, chain->lambda1);
 }
 
 float chain_position(const Chain* chain, uint32_t i) {
@@ -119,27 +149,39 @@ double chain_amplitude(const Chain* chain, double a1) {
   return sqrt(2.0 * energy / (half_step * (chain->n_masses + 1.0)));
 }
 
-/* Past a wall the string goes on upside down. */
-static double position_at(const Chain* chain, int64_t i) {
-  const int64_t n = chain->n_masses;
-  const int64_t inside = i < 0 ? -2 - i : i >= n ? 2 * n - i : i;
-  const bool is_mass = inside >= 0 && inside < n;
-  return is_mass ? (i == inside ? 1.0 : -1.0) * chain_numbers_position(chain, (uint32_t)inside)
-                 : 0.0;
+/* A field over the string, from [REACH] on; past a wall it goes on upside down. */
+enum { REACH = 3 };
+typedef double Field[CHAIN_MAX_MASSES + 2 * REACH];
+
+static void mirror(Field field, uint32_t n_masses) {
+  double* const wall = field + REACH - 1;
+  double* const far = field + REACH + n_masses;
+  *wall = 0.0;
+  *far = 0.0;
+  for (uint32_t i = 1; i < REACH; ++i) {
+    wall[-(int)i] = -wall[i];
+    far[i] = -far[-(int)i];
+  }
 }
 
 double chain_energy(const Chain* chain) {
   const StringCoefs c = chain->now;
+  const double at = 2.0 * c.k1 + 6.0 * c.k2 + 20.0 * c.k3;
+  const double beside = c.k1 + 4.0 * c.k2 + 15.0 * c.k3;
+  const double farther = c.k2 + 6.0 * c.k3;
   double twice = 0.0;
-  for (int64_t i = 0; i < chain->n_masses; ++i) {
-    const double x = position_at(chain, i);
-    const double u = chain_numbers_velocity(chain, (uint32_t)i);
-    const double x1 = position_at(chain, i - 1) + position_at(chain, i + 1);
-    const double x2 = position_at(chain, i - 2) + position_at(chain, i + 2);
-    const double x3 = position_at(chain, i - 3) + position_at(chain, i + 3);
-    const double pull = c.k1 * (2.0 * x - x1) + c.k2 * (6.0 * x - 4.0 * x1 + x2) +
-                        c.k3 * (20.0 * x - 15.0 * x1 + 6.0 * x2 - x3);
-    twice += u * u + pull * (x - u);
+  Field field;
+  double* const x = field + REACH;
+  for (uint32_t i = 0; i < chain->n_masses; ++i) {
+    x[i] = chain_numbers_position(chain, i);
+  }
+  mirror(field, chain->n_masses);
+  for (uint32_t i = 0; i < chain->n_masses; ++i) {
+    const double* const y = x + i;
+    const double u = chain_numbers_velocity(chain, i);
+    const double pull =
+        at * y[0] - beside * (y[-1] + y[1]) + farther * (y[-2] + y[2]) - c.k3 * (y[-3] + y[3]);
+    twice += u * u + pull * (y[0] - u);
   }
   return 0.5 * twice;
 }
@@ -162,7 +204,10 @@ ChainWork chain_work(const ChainPart* part, uint32_t n_taps) {
       .n_masses = chain->n_masses,
       .n_cells = chain->n_cells,
       .now = chain->numbers == CHAIN_FIXED ? &chain->fixed : &chain->now,
-      .change = chain->change,
+      .change = &chain->change,
+      .haste = chain->haste,
+      .lambda1 = chain->lambda1,
+      .kept = chain->kept,
       .gain = &chain->gain,
       .fade = chain->fade,
       .chance = &chain->chance,

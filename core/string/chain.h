@@ -16,6 +16,14 @@
    damped is put into fixed point (core/string/chain_fixed.h), which does not drift, or if it is so
    short or rings so long that their noise would be too near, into doubles: see chain_settle().
 
+   Moving.  A spring that is tightened while it is stretched gives the string energy, and one that
+   is let go takes it; in time with the string's own motion that would feed it without end.  So what
+   glides is not the springs but the string's clock: x(t) becomes x(τ(t)), the same motion read
+   faster or slower.  Position stays, and the velocity at the same instant, v = u − ½ K x, is scaled
+   by the ratio of the fundamental's frequencies.  So no glide of pitch feeds or starves it,
+   whatever its time, and its amplitude is the same at all pitches.  What is no change of time, one
+   of stiffness say, still is one of springs.
+
    Layout.  The string is cut into as many segments as the kernel has lanes, S cells each, one a
    lane: mass i is lane i div S of cell i mod S, and a cell is a vector of x and a vector of u.  So
    neighbours are in the cells beside, and lanes are shifted only at the two seams of a step.  Where
@@ -52,7 +60,10 @@ typedef struct {
   uint32_t n_gliding; /**< Steps until `goal` is reached; 0 when the coefficients stand still */
   StringCoefs now;    /**< What the next step uses, while still */
   StringCoefs change; /**< What a step adds to it, while gliding */
+  double haste;       /**< What a gliding step makes of that */
   StringCoefs goal;   /**< Where a glide ends */
+  double lambda1;     /**< Of the fundamental */
+  double kept;        /**< What a gliding step leaves of the motion, see chain_drain() */
   StringCoefs fixed;  /**< CHAIN_FIXED: what the next step uses instead, see ChainFixed */
   double gain;        /**< CHAIN_FIXED: of a number */
   double fade;        /**< CHAIN_FIXED: what a step makes of the gain */
@@ -80,11 +91,20 @@ void chain_rest(Chain* chain);
 void chain_set(Chain* chain, StringCoefs coefs);
 
 /**
-   Move the coefficients to `coefs` in a straight line over `n_frames` steps (0: at once), from
-   wherever they are. The stable region is convex in them, so a way from one stable string to
-   another is stable all along.
+   Move the coefficients to `coefs` in a straight line over `n_frames` steps (0: in one), from
+   wherever they are, bending the clock on the way, such that the pitch moves by about the same
+   interval in each step; a shared one goes in even steps. The stable region is convex in them, so a
+   way from one stable string to another is stable all along.
 */
 void chain_glide(Chain* chain, StringCoefs coefs, uint32_t n_frames);
+
+/** Take energy from it until its glide ends, or where it stands still within `n_frames` steps, such
+ * that `share` of it is left, 0 < share ≤ 1: the motion grows smaller, and is otherwise as it
+ * was. */
+void chain_drain(Chain* chain, double share, uint32_t n_frames);
+
+/** How fast its clock goes, squared, see chain_pace_of(). */
+double chain_pace(const Chain* chain);
 
 /** Position of mass `i`, 0 ≤ i < n_masses, in the units of the caller's excitation. */
 float chain_position(const Chain* chain, uint32_t i);

@@ -56,11 +56,14 @@ typedef struct {
   void* cells;
   uint32_t n_masses;
   uint32_t n_cells;
-  StringCoefs* now;   /**< Read; written where they move */
-  StringCoefs change; /**< Per frame */
-  double* gain;       /**< CHAIN_FIXED: of a number, after the last step; written */
-  double fade;        /**< CHAIN_FIXED: what a step makes of the gain */
-  uint32_t* chance;   /**< CHAIN_FIXED: where the dither is; written */
+  StringCoefs* now;    /**< Read; written where they move */
+  StringCoefs* change; /**< Per frame; written where they move */
+  double haste;        /**< What each frame makes of the change */
+  double lambda1;      /**< Of the fundamental, by which the clock is bent where they move */
+  double kept;         /**< Where they move: what a frame leaves of the motion, see chain_drain() */
+  double* gain;        /**< CHAIN_FIXED: of a number, after the last step; written */
+  double fade;         /**< CHAIN_FIXED: what a step makes of the gain */
+  uint32_t* chance;    /**< CHAIN_FIXED: where the dither is; written */
   ChainReader readers[CHAIN_MAX_TAPS];
 } ChainWork;
 
@@ -74,6 +77,16 @@ typedef void (*ChainLoop)(const ChainWork* works,
                           uint32_t n_works,
                           uint32_t n_frames,
                           float* const* out);
+
+/**
+   How fast the string's clock goes, squared: sin² of the fundamental's digital angle ω times what
+   its damping leaves in a step, (1 − g) sin² ω = a − (a + g)²/4.
+*/
+static inline double chain_pace_of(StringCoefs c, double lambda1) {
+  const double a = ((c.k3 * lambda1 + c.k2) * lambda1 + c.k1) * lambda1;
+  const double half = 0.5 * (a + c.z0 + c.z1 * lambda1);
+  return a - half * half;
+}
 
 /** Sums over a string's masses, in the units of its numbers. */
 typedef struct {

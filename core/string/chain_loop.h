@@ -21,6 +21,8 @@
 */
 #include "core/string/chain_step.h"
 
+#include <math.h>
+
 INLINE Coefs narrow(StringCoefs wide) {
   return (Coefs){
       .k1 = (Real)wide.k1,
@@ -41,6 +43,47 @@ INLINE StringCoefs advance(StringCoefs now, StringCoefs change) {
   };
 }
 
+/*
+  The string's own clock is bent, not its springs (core/string/chain.h): what goes on is x and v = u
+  − ½ K x, v faster by ρ.  The step that does that is one with other coefficients, for
+
+      u' = ρ (u − ½ K x) + ½ K' x − K' x = u − (1 − ρ) u − ½ (ρ K + K') x.
+
+  What is left of the motion in a step is `kept` of it, x and u alike.
+*/
+INLINE Coefs bent(StringCoefs from, StringCoefs to, double ratio, double kept) {
+  const double half = 0.5 * kept;
+  const double left = kept * ratio;
+  Coefs c = narrow((StringCoefs){
+      .k1 = half * (ratio * from.k1 + to.k1),
+      .k2 = half * (ratio * from.k2 + to.k2),
+      .k3 = half * (ratio * from.k3 + to.k3),
+      .z0 = 1.0 - left * (1.0 - to.z0),
+      .z1 = left * to.z1,
+  });
+  c.kept = (Real)kept;
+  return c;
+}
+
+/* How much faster the clock goes; what does not swing has none. */
+INLINE double ratio_of(StringCoefs from, StringCoefs to, double lambda1) {
+  const double before = chain_pace_of(from, lambda1);
+  const double now = chain_pace_of(to, lambda1);
+  return before > 0.0 && now > 0.0 ? sqrt(now / before) : 1.0;
+}
+
+INLINE StringCoefs scaled(StringCoefs c, double factor) {
+  return (StringCoefs){factor * c.k1, factor * c.k2, factor * c.z0, factor * c.z1, factor * c.k3};
+}
+
+INLINE void go_on(Strand* strand, const ChainWork* work) {
+  const StringCoefs to = advance(strand->wide, strand->change);
+  strand->change = scaled(strand->change, work->haste);
+  const double ratio = ratio_of(strand->wide, to, work->lambda1);
+  strand->now = bent(strand->wide, to, ratio, work->kept);
+  strand->wide = to;
+}
+
 INLINE float read_tap(const Number* numbers, const ChainReader* reader) {
   return (float)((Real)reader->weight[0] * (Real)numbers[reader->offset[0]] +
                  (Real)reader->weight[1] * (Real)numbers[reader->offset[1]]);
@@ -56,6 +99,7 @@ INLINE Strand strand_of(const ChainWork* work) {
       .n_free = wall_lane < CHAIN_LOOP_LANES ? wall_cell : work->n_cells,
       .mask = wall_mask(wall_lane),
       .wide = *work->now,
+      .change = *work->change,
       .now = narrow(*work->now),
       .gain = CHAIN_LOOP_IS_FIXED ? *work->gain : 1.0,
       .chance = CHAIN_LOOP_IS_FIXED ? *work->chance : 0,
@@ -66,8 +110,7 @@ INLINE Strand strand_of(const ChainWork* work) {
 INLINE void
 run_frame(Strand* strand, const ChainWork* work, uint32_t n, float* const* out, ChainScene scene) {
   if (scene.is_moving) {
-    strand->wide = advance(strand->wide, work->change);
-    strand->now = narrow(strand->wide);
+    go_on(strand, work);
   }
   step(strand, scene);
   if (CHAIN_LOOP_IS_FIXED && scene.damping != CHAIN_UNDAMPED) {
@@ -96,6 +139,7 @@ INLINE void run(const ChainWork* works,
   for (uint32_t w = 0; w < n_works; ++w) {
     if (scene.is_moving) {
       *works[w].now = strands[w].wide;
+      *works[w].change = strands[w].change;
     }
     if (CHAIN_LOOP_IS_FIXED) {
       *works[w].gain = strands[w].gain;

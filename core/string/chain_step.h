@@ -18,6 +18,7 @@ typedef int64_t Mask __attribute__((vector_size(CHAIN_LOOP_LANES * sizeof(Number
 /* The coefficients in the precision of the loop. */
 typedef struct {
   Real k1, k2, k3, z0, z1;
+  Real kept; /* Of a position, where they move */
 } Coefs;
 
 /* As many masses as lanes: where they are, and how far they move in a step. */
@@ -43,6 +44,7 @@ typedef struct {
   uint32_t n_free; /* Cells before the wall's */
   Mask mask;
   StringCoefs wide;
+  StringCoefs change;
   Coefs now;
   double gain;
   uint32_t chance;
@@ -160,7 +162,6 @@ INLINE Vector link_of(Slopes slopes, RealVector dither, const Links* links, Chai
 INLINE void move(Cell* cell, Vector x, Vector u, Vector pull, const Coefs* c, ChainScene scene) {
 #if CHAIN_LOOP_IS_FIXED
   (void)c; /* The gain fades instead. */
-  (void)scene;
 #else
   if (scene.damping != CHAIN_UNDAMPED) {
     pull -= c->z0 * u;
@@ -168,7 +169,7 @@ INLINE void move(Cell* cell, Vector x, Vector u, Vector pull, const Coefs* c, Ch
 #endif
   u += pull;
   cell->u = u;
-  cell->x = x + u;
+  cell->x = (scene.is_moving ? number(c->kept * real(x)) : x) + u;
 }
 
 #include "core/string/chain_flexible.h"

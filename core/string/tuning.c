@@ -20,6 +20,7 @@ typedef struct {
   Pole first;     /* The fundamental */
   double lambda1; /* Its eigenvalue */
   double lambda_last;
+  double margin;  /* Headroom that is to be left */
   double loss;    /* s */
   double bending; /* b = k2/k1 */
   double fade; /* d = k3/k1 over what b is above LEAST_GROWING_BENDING, with which it gives way */
@@ -52,6 +53,7 @@ static Status design_init(Design* design, const TuningTarget* target, uint32_t n
       .first = first,
       .lambda1 = tuning_lambda(n_masses, 1),
       .lambda_last = tuning_lambda(n_masses, n_masses),
+      .margin = n_masses > 1 ? TUNING_MARGIN : TUNING_LAST_MARGIN,
       .loss = target->loss,
   };
   set_partials(design, target, n_masses);
@@ -114,7 +116,7 @@ static double headroom(StringCoefs coefs, double lambda_last) {
 }
 
 static bool design_is_safe(const Design* design) {
-  return headroom(design_coefs(design), design->lambda_last) >= TUNING_MARGIN;
+  return headroom(design_coefs(design), design->lambda_last) >= design->margin;
 }
 
 /* Raise *field from `low`, where the design must be safe, towards `high`, as far as it stays safe.
@@ -173,13 +175,6 @@ double tuning_headroom(StringCoefs coefs, uint32_t n_masses) {
   return headroom(coefs, tuning_lambda(n_masses, n_masses));
 }
 
-/* One mass may come nearer to the limit, there being none to leave out. */
-static uint32_t holds_one(const TuningTarget* target) {
-  Design design;
-  return !design_init(&design, target, 1) &&
-         headroom(design_coefs(&design), design.lambda_last) >= TUNING_LAST_MARGIN;
-}
-
 uint32_t tuning_max_masses(const TuningTarget* target, uint32_t limit) {
   uint32_t low = 0;
   uint32_t high = limit;
@@ -192,7 +187,7 @@ uint32_t tuning_max_masses(const TuningTarget* target, uint32_t limit) {
       high = middle - 1;
     }
   }
-  return low == 0 && limit > 0 ? holds_one(target) : low;
+  return low;
 }
 
 Status tuning_fit(const TuningTarget* target, uint32_t n_masses, StringCoefs* coefs) {

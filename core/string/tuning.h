@@ -39,14 +39,14 @@
 #include <stdint.h>
 
 /**
-   The part of the stability limit that is left unused.  A mode so near the limit that it beats with
-   half the rate more slowly than a player's gesture would be pumped by it, and grow.
+   The part of the stability limit that is left unused, so that no partial is above 0.86 of half the
+   rate.  A mode nearer to the limit beats with half the rate more slowly than a player's gesture, and
+   no bent clock (core/string/chain.h) keeps a gesture from feeding it: at a thousandth it can grow by
+   e in a hundredth of a second, with what is left here in half a second at the very worst.
 */
-#define TUNING_MARGIN 1e-3
+#define TUNING_MARGIN 0.05
 
-/** The same of a note so high that one mass is all it can have; gestures choke it, see
- * tuning_fit().
- */
+/** The same of a note so high that one mass is all it can have; its clock is bent exactly. */
 #define TUNING_LAST_MARGIN 1e-4
 
 /** How true the partials are to the ideal or stiff string's; each is solved with its b and d. */
@@ -115,8 +115,8 @@ Status tuning_solve(const TuningTarget* target, uint32_t n_masses, StringCoefs* 
 double tuning_headroom(StringCoefs coefs, uint32_t n_masses);
 
 /**
-   The largest number of masses, at most `limit`, whose string for `target` keeps TUNING_MARGIN of
-   headroom, and if there is none 1 if one mass keeps TUNING_LAST_MARGIN.
+   The largest number of masses, at most `limit`, whose string for `target` keeps its margin of
+   headroom: TUNING_MARGIN, or TUNING_LAST_MARGIN of one mass.
 
    @return 0 if not even one mass does (F at or above Nyquist, or within 0.7 % below it) or the
    target is out of range
@@ -125,7 +125,7 @@ uint32_t tuning_max_masses(const TuningTarget* target, uint32_t limit);
 
 /**
    Solve as tuning_solve(), but for a string that must keep its `n_masses`: pitch and decay stay
-   exact, and where the string would have less than TUNING_MARGIN of headroom, first stiffness gives
+   exact, and where the string would have less than its margin of headroom, first stiffness gives
    way and with it what keeps the partials true (in a straight line to k3 = 0 and a slightly
    negative bending, which flattens the upper ones), then loss, then bending again.
 

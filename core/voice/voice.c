@@ -15,6 +15,9 @@ static const double STILLNESS = 1e-20;
  * back; fewer masses are better then. */
 static const double MOST_GIVEN_WAY = -0.126;
 
+/* The least that is left of its energy when it is held back. */
+static const double LEAST_KEPT = 1e-6;
+
 /* How often a string is looked after: whether it has died away, and what numbers suit it [frames];
  * and by how much the first time differs from phase to phase, after it is strung and after a glide,
  * so that those touched together are not all looked after together. */
@@ -23,38 +26,60 @@ enum { CHECK_FRAMES = 1024, N_PHASES = 16, STRING_SPREAD = 64, GLIDE_SPREAD = 8 
 /* When a choked string is let go, should one of its upper modes be slow to give in [s]. */
 static const double CHOKED_S = 0.1;
 
-/*
-  Tension that swings in time with a string feeds it, as a swing is fed, stable as each step of it
-  is.  So it is let have this many times the motion that its plucks gave it, which is what a bend of
-  four octaves at the worst moment would give, and no more.
-*/
-static const double MOST_FED = 4.0;
+/* How much more energy it may have than was given to it, for what is no bend changes that of its
+ * partials: 1.5 dB. */
+static const double MOST_MORE = 1.4;
 
-/* Its amplitude times √ω, which a slow change of pitch leaves alone. */
-static double motion_of(const Voice* voice) {
-  const double a1 = tuning_mode(voice->chain.now, voice->chain.n_masses, 1).a;
-  return chain_amplitude(&voice->chain, a1) * sqrt(sqrt(a1));
+/* How much more it may have before it is taken for fed. */
+static const double MORE = 1.15;
+
+/* What a unit of energy adds to the square of the amplitude that the fundamental alone would have.
+ */
+static double per_energy(const Chain* chain) {
+  const double a = tuning_mode(chain->now, chain->n_masses, 1).a;
+  return 4.0 / ((chain->n_masses + 1.0) * (a - 0.25 * a * a));
 }
 
-/* Take back what moving coefficients fed it beyond what may be. */
-static void hold_back(Voice* voice) {
-  const double most = MOST_FED * fmax(voice->given, voice->lent);
-  const double motion = motion_of(voice);
-  if (motion > most) {
-    const float kept = (float)(most / motion);
-    for (uint32_t i = 0; i < voice->chain.n_masses; ++i) {
-      chain_place(&voice->chain, i, kept * chain_position(&voice->chain, i),
-                  kept * chain_velocity(&voice->chain, i));
-    }
+/* Work that was done on it. */
+static void credit(Voice* voice, double work) {
+  voice->work += work;
+  voice->given += work * per_energy(&voice->chain);
+}
+
+/*
+  What was given dies with what rings.  What rings in time with the gestures that feed it does not
+  die; then as the slowest mode does.
+*/
+static void age(Voice* voice, double square) {
+  const Chain* const chain = &voice->chain;
+  const double radius = fmax(pole_radius(tuning_mode(chain->now, chain->n_masses, 1)),
+                             pole_radius(tuning_mode(chain->goal, chain->n_masses, 1)));
+  const double left = pow(radius, 2.0 * voice->n_unseen);
+  const double given = fmax(0.0, voice->given);
+  voice->given = square > MORE * given ? left * given : fmin(given, square);
+  voice->lent *= left;
+  voice->n_unseen = 0;
+}
+
+/*
+  Take back what moving coefficients fed it, until the glide ends.  What bends its clock feeds it
+  nothing (core/string/chain.h); but partials that change, a bridge that is tied while it moves, and
+  what is near half the rate might, in time with it, and do so for minutes.
+*/
+static void hold_back(Voice* voice, uint32_t n_glide) {
+  const double square = chain_energy(&voice->chain) * per_energy(&voice->chain);
+  age(voice, square);
+  const double most = MOST_MORE * fmax(voice->given, voice->lent);
+  if (square > most) {
+    chain_drain(&voice->chain, fmax(most / square, LEAST_KEPT), n_glide);
   }
 }
 
-/* What moving coefficients fed it is not taken for a pluck's, and what others lent it not for its
- * own. */
-static void note_pluck(Voice* voice, double before) {
-  const double after = motion_of(voice);
-  const double given = before > voice->given ? voice->given * (after / before) : after;
-  voice->given = voice->lent > 0.0 ? fmax(given, voice->given + after - before) : given;
+/* What others move may be fed though it stands still itself. */
+static void look(Voice* voice) {
+  if (tie_is_on(&voice->tie)) {
+    hold_back(voice, voice->n_gesture);
+  }
 }
 
 /* Remember what the coefficients were made for. */
@@ -94,12 +119,12 @@ static bool fit(Voice* voice, const TuningTarget* target, StringCoefs* coefs) {
 
 static bool retune(Voice* voice, const TuningTarget* target, uint32_t n_glide) {
   StringCoefs coefs = {0};
-  hold_back(voice);
   if (!fit(voice, target, &coefs)) {
     return false;
   }
   note_design(voice, target->tone.f0_hz, coefs);
   chain_glide(&voice->chain, coefs, n_glide);
+  hold_back(voice, n_glide);
   voice->n_until_check = least(voice->n_until_check, n_glide + GLIDE_SPREAD * (1 + voice->phase));
   return true;
 }
@@ -179,14 +204,15 @@ static bool is_played(const Voice* voice) {
   return voice->hammer.is_active || voice->bow.is_active;
 }
 
-/* What moves it is taken for what was given to it. */
-static void feed(Voice* voice) {
-  voice->given = fmax(voice->given, motion_of(voice));
+/* What is played is not looked after. */
+static void put_off(Voice* voice) {
+  look(voice);
   voice->n_until_check = CHECK_FRAMES;
 }
 
+/* Of the fundamental as it is now: what is played in the middle of a glide is heard at its end. */
 static double angle1_of(const Voice* voice) {
-  return 2.0 * PI * voice->f0_hz / voice->rate_hz;
+  return pole_angle(tuning_mode(voice->chain.now, voice->chain.n_masses, 1));
 }
 
 static bool is_let_go(const Voice* voice) {
@@ -194,6 +220,7 @@ static bool is_let_go(const Voice* voice) {
 }
 
 static void check(Voice* voice) {
+  look(voice);
   voice->loudest = fmax(voice->loudest, chain_amplitude(&voice->chain, HUGE_VAL));
   const double silence = fmax(SILENCE * voice->loudest, STILLNESS);
   const bool is_silent = !voice->is_kept && chain_amplitude(&voice->chain, voice->a1) < silence;
@@ -211,7 +238,7 @@ static void act_finger(Voice* voice) {
   const double coming = line_next(&finger->coming);
   const double going = fmin(1.0, (double)finger->n_left / voice->n_gesture);
   if (voice->is_awake) {
-    voice->work -= finger_act(&voice->chain, finger->place, going * coming);
+    credit(voice, -finger_act(&voice->chain, finger->place, going * coming));
     notice(voice);
   }
   if (--finger->n_left == 0) {
@@ -223,11 +250,11 @@ static void act_finger(Voice* voice) {
 static bool act_played(Voice* voice) {
   if (voice->hammer.is_active) {
     (void)hammer_act(&voice->hammer, &voice->chain);
-    voice->work += voice->hammer.work;
+    credit(voice, voice->hammer.work);
   }
   if (voice->bow.is_active) {
     (void)bow_act(&voice->bow, &voice->chain);
-    voice->work += voice->bow.work;
+    credit(voice, voice->bow.work);
   }
   const bool is_gliding = intonation_hear(&voice->intonation, &voice->chain, voice->bow.before);
   if (is_gliding) {
@@ -235,7 +262,7 @@ static bool act_played(Voice* voice) {
   }
   const bool has_left = !is_played(voice);
   if (has_left || voice->n_until_check == 1) {
-    feed(voice);
+    put_off(voice);
   }
   return is_gliding || has_left;
 }
@@ -295,7 +322,8 @@ bool voice_string(Voice* voice, const VoiceAim* aim, uint32_t limit, uint32_t n_
   voice->n_strung = n_masses;
   voice->work = 0.0;
   voice->given = 0.0;
-  voice->lent = 0.0;
+  voice->lent = tie_is_wanted(hold_of(voice, aim)) ? HUGE_VAL : 0.0;
+  voice->n_unseen = 0;
   voice->is_kept = false;
   voice->loudest = 0.0;
   voice->n_choked = 0;
@@ -310,7 +338,7 @@ bool voice_string(Voice* voice, const VoiceAim* aim, uint32_t limit, uint32_t n_
 
 void voice_aim(Voice* voice, const VoiceAim* aim, uint32_t n_glide) {
   if (is_played(voice)) {
-    feed(voice);
+    put_off(voice);
   }
   if (!glide(voice, aim, n_glide)) {
     glide_choked(voice, *aim, n_glide);
@@ -361,17 +389,15 @@ void voice_hand_over(Voice* from, Voice* to) {
 }
 
 void voice_pluck(Voice* voice, Pluck pluck) {
-  const double before = motion_of(voice);
-  voice->work += pluck_add(&voice->chain, pluck, angle1_of(voice));
+  credit(voice, pluck_add(&voice->chain, pluck, angle1_of(voice)));
   chain_settle(&voice->chain);
   voice->loudest = 0.0;
-  note_pluck(voice, before);
   notice(voice);
 }
 
 void voice_strike(Voice* voice, Strike strike) {
   hammer_throw(&voice->hammer, &voice->chain, strike, angle1_of(voice), voice->rate_hz);
-  feed(voice);
+  put_off(voice);
 }
 
 void voice_bow(Voice* voice, Stroke stroke, const TuningTarget* target) {
@@ -379,7 +405,7 @@ void voice_bow(Voice* voice, Stroke stroke, const TuningTarget* target) {
   if (!voice->intonation.is_active) {
     intonation_start(&voice->intonation, target);
   }
-  feed(voice);
+  put_off(voice);
 }
 
 void voice_swell_bow(Voice* voice, double strength, uint32_t n_frames) {
@@ -485,6 +511,7 @@ bool voice_pass(Voice* voice, uint32_t n_frames) {
   }
   voice->n_until_piece -= voice->is_moving ? n_frames : 0;
   if (voice->is_awake) {
+    voice->n_unseen += n_frames;
     voice->n_until_check -= n_frames;
     voice->n_choked += voice->is_choked ? n_frames : 0;
     if (voice->n_until_check == 0) {
@@ -520,6 +547,12 @@ void voice_run(
   }
 }
 
+void voice_mend(Voice* voice) {
+  if (voice->is_awake && !isfinite(chain_energy(&voice->chain))) {
+    voice_reset(voice);
+  }
+}
+
 void voice_report(const Voice* voice, VoiceReport* report) {
   if (voice->is_awake) {
     ++report->n_strings;
@@ -536,8 +569,8 @@ double voice_work(const Voice* voice) {
   return voice->work;
 }
 
-void voice_lend(Voice* voice, double motion) {
-  voice->lent = fmax(voice->lent, motion);
+void voice_lend(Voice* voice, double square) {
+  voice->lent = isfinite(voice->lent) ? fmax(voice->lent, square) : square;
 }
 
 void voice_share(Voice* voice, bool is_shared) {

@@ -106,11 +106,13 @@ typedef struct {
   Tie tie;
 
   /* How long it lives */
-  double work;            /**< What all that played it has given it, see voice_work() */
-  double given;           /**< Motion that was given to it: √ω times an amplitude */
-  double lent;            /**< The same, that other strings may have given it */
-  double loudest;         /**< Largest displacement seen since it was last plucked */
-  uint32_t n_choked;      /**< Frames in which it has been choked */
+  double work;       /**< What all that played it has given it, see voice_work() */
+  double given;      /**< What is left of that, as the square of an amplitude, see
+                        voice_square() */
+  double lent;       /**< The same, that other strings may have given it; HUGE_VAL: not known */
+  uint32_t n_unseen; /**< Frames since `given` was last compared with what there is */
+  double loudest;    /**< Largest displacement seen since it was last plucked */
+  uint32_t n_choked; /**< Frames in which it has been choked */
   uint32_t n_until_check; /**< Frames until it is next looked after, see voice_pass() */
   bool is_awake;          /**< Whether it moves */
   bool is_kept;           /**< Something else moves it: it is not put to sleep */
@@ -267,6 +269,10 @@ ChainTap voice_tap(const Voice* voice, const Pickup* pickup, double angle1);
 void voice_run(
     Voice* voice, const Reading* reading, double angle1, uint32_t n_frames, float* const* out);
 
+/** Silence a voice that holds what is not a number; the next time it is strung it is as new.  For
+ * who heard such a thing: nothing that is played or set makes it. */
+void voice_mend(Voice* voice);
+
 /** Add a voice, if it is awake, to what is sounding. */
 void voice_report(const Voice* voice, VoiceReport* report);
 
@@ -286,8 +292,8 @@ double voice_work(const Voice* voice);
 
 /* For what ties voices together */
 
-/** Others may have given it so much motion, see Voice.lent. */
-void voice_lend(Voice* voice, double motion);
+/** Others may have given it so much, see Voice.lent. */
+void voice_lend(Voice* voice, double square);
 
 /** Let its tie go on by one frame. */
 static inline void voice_advance_tie(Voice* voice) {

@@ -196,7 +196,8 @@ static void nothing_that_hands_do_clicks(void** state) {
     worst = fmax(worst, fmax(most.step, most.turn));
   }
   guitar_free(guitar);
-  assert_within("largest edge, of a pluck's", worst, 1.0);
+  /* What is bent keeps its amplitude, and partials meet on the way as they do in no pluck. */
+  assert_within("largest edge, of a pluck's", worst, 1.05);
 }
 
 /* A step of a tenth of a note's peak is seen on every string. */

@@ -155,7 +155,8 @@ static void fingers_make_no_more_than_a_pluck(void** state) {
     finger.velocity = 127;
     worst[1] = fmax(worst[1], try_finger(host, &finger));
   }
-  assert_within("largest edge without force, of a pluck's", worst[0], 1.0);
+  /* What rang keeps its amplitude at the higher fret, where it is read at another part of it. */
+  assert_within("largest edge without force, of a pluck's", worst[0], 1.1);
   assert_within("with all of it", worst[1], 1.4);
   host_free(host);
 }
@@ -262,7 +263,8 @@ static void nothing_else_makes_more_than_a_pluck(void** state) {
     worst = fmax(worst, most);
   }
   /* While what a pickup reads fades from one place to another both are heard: a little more. */
-  assert_within("largest edge, of a pluck's", worst, 1.05);
+  /* What slides up keeps its amplitude, too. */
+  assert_within("largest edge, of a pluck's", worst, 1.1);
   host_free(host);
 }
 

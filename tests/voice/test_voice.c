@@ -49,9 +49,9 @@ static Tone tone_of(const Voice* voice) {
   return pole_tone(RATE_HZ, tuning_mode(voice->chain.now, voice->chain.n_masses, 1));
 }
 
-/* The fundamental's amplitude times √ω: what partials do in the voice's own measure comes and goes.
+/* The fundamental's amplitude: what partials do in the voice's own measure comes and goes.
  */
-static double motion_of(const Voice* voice) {
+static double amplitude_of(const Voice* voice) {
   const double length = voice->chain.n_masses + 1.0;
   const double angle = 2.0 * PI * voice->f0_hz / RATE_HZ;
   double x = 0.0;
@@ -61,7 +61,7 @@ static double motion_of(const Voice* voice) {
     x += shape * (double)chain_position(&voice->chain, i);
     u += shape * (double)chain_velocity(&voice->chain, i);
   }
-  return sqrt(angle) * hypot(x, (x - u - x * cos(angle)) / sin(angle));
+  return hypot(x, (x - u - x * cos(angle)) / sin(angle));
 }
 
 static void gesture_is_four_milliseconds_and_enough_frames(void** state) {
@@ -115,13 +115,13 @@ static void retuned_it_arrives_and_has_its_motion(void** state) {
   Voice voice;
   ring(&voice, 110.0, 1e3);
   run(&voice, 1000);
-  const double before = motion_of(&voice);
+  const double before = amplitude_of(&voice);
   voice_aim(&voice, &aim, 4000);
   assert_true(voice_stretch(&voice) <= 4000);
   run(&voice, 4000);
   assert_within("cents off", fabs(1200.0 * log2(tone_of(&voice).f0_hz / 123.0)), 1e-6);
   assert_within("τ off, relative", fabs(tone_of(&voice).tau_s / 0.5 - 1.0), 1e-6);
-  const double after = motion_of(&voice);
+  const double after = amplitude_of(&voice);
   /* Half of the way to a decay of half a second, for a twelfth of one. */
   assert_within("motion off, relative", fabs(after / before / exp(-4000.0 / RATE_HZ) - 1.0), 0.005);
 }
@@ -144,27 +144,6 @@ static void meshed_it_keeps_pitch_decay_and_motion(void** state) {
   /* What the partials had that 31 masses do not hold is gone. */
   assert_within("motion off, relative",
                 fabs(chain_amplitude(&voice.chain, voice.a1) / before - 1.0), 0.02);
-}
-
-/* Tension that swings in time with it feeds it, but for what is taken back. */
-static void swinging_tension_feeds_it_so_far_only(void** state) {
-  (void)state;
-  const VoiceAim low = aim_of(200.0, 100.0);
-  const VoiceAim high = aim_of(280.0, 100.0);
-  double most = 0.0;
-  for (uint32_t period = 40; period < 130; period += 3) {
-    Voice voice;
-    ring(&voice, 200.0, 100.0);
-    const double given = voice.given;
-    for (int i = 0; i < 200; ++i) {
-      voice_aim(&voice, i % 2 ? &low : &high, 4);
-      run(&voice, period);
-      most = fmax(most, motion_of(&voice) / given);
-    }
-  }
-  assert_true(most > 1.2); /* The swing does feed it */
-  /* Four times, and what one swing more gives. */
-  assert_within("motion, over what it was given", most, 4.0 * 280.0 / 200.0);
 }
 
 /* Undamped, so that all that it has was given to it; by all that plays it, on what already rings.
@@ -212,25 +191,26 @@ static void its_energy_is_what_played_it(void** state) {
   assert_within("of the most that it had", worst, 1e-5);
 }
 
-/* What coefficients do that move in time with it is in its energy, and not in what was given. */
+/* Who bends it does work on it, as the square of the pitch, which is not counted as given. */
 static void movement_gives_no_work(void** state) {
   (void)state;
-  VoiceAim low = aim_of(200.0, HUGE_VAL);
-  VoiceAim high = aim_of(280.0, HUGE_VAL);
+  const VoiceAim low = aim_of(200.0, HUGE_VAL);
+  const VoiceAim high = aim_of(280.0, HUGE_VAL);
   Voice voice;
   lay(&voice);
   assert_true(voice_string(&voice, &low, CAPACITY, 0));
   voice_pluck(&voice, (Pluck){0.3, 0.3, 0.25});
   const double given = voice_work(&voice);
   assert_within("of what it was given", fabs(voice_energy(&voice) / given - 1.0), 1e-5);
-  double most = 0.0;
+  double worst = 0.0;
   for (int i = 0; i < 200; ++i) {
-    voice_aim(&voice, i % 2 ? &low : &high, 4);
+    voice_aim(&voice, i % 2 ? &low : &high, 52);
     run(&voice, 52);
-    most = fmax(most, voice_energy(&voice) / given);
+    const double bent = i % 2 ? 1.0 : 1.4 * 1.4;
+    worst = fmax(worst, fabs(voice_energy(&voice) / (given * bent) - 1.0));
     assert_true(voice_work(&voice) == given);
   }
-  assert_true(most > 1.5);
+  assert_within("energy, over what the bend makes of it", worst, 0.1);
 }
 
 static void choked_it_sleeps_after_a_tenth_of_a_second(void** state) {
@@ -272,7 +252,6 @@ int main(void) {
       cmocka_unit_test(pitch_that_cannot_be_had_chokes_it),
       cmocka_unit_test(retuned_it_arrives_and_has_its_motion),
       cmocka_unit_test(meshed_it_keeps_pitch_decay_and_motion),
-      cmocka_unit_test(swinging_tension_feeds_it_so_far_only),
       cmocka_unit_test(its_energy_is_what_played_it),
       cmocka_unit_test(movement_gives_no_work),
       cmocka_unit_test(choked_it_sleeps_after_a_tenth_of_a_second),
