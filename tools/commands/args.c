@@ -1,10 +1,14 @@
 #include "tools/commands/args.h"
 
+#include "tools/formats/escape.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { MESSAGE_SIZE = 8192 };
 
 int args_next(Args* args) {
   const char* const word = args->argv[optind];
@@ -31,11 +35,21 @@ int args_next(Args* args) {
 
 bool args_number(
     const Args* args, const char* what, const char* text, double min, double max, double* number) {
+  return args_number_or(args, what, text, min, max, NULL, number);
+}
+
+bool args_number_or(const Args* args,
+                    const char* what,
+                    const char* text,
+                    double min,
+                    double max,
+                    const char* word,
+                    double* number) {
   char* end = NULL;
   const double value = strtod(text, &end);
   if (end == text || *end || !isfinite(value) || value < min || value > max) {
-    return args_fail(args, false, "%s: found '%s', expected a number from %g to %g", what, text,
-                     min, max);
+    return args_fail(args, false, "%s: found '%s', expected a number from %g to %g%s%s", what, text,
+                     min, max, word ? ", or " : "", word ? word : "");
   }
   *number = value;
   return true;
@@ -55,11 +69,14 @@ bool args_whole(
 }
 
 int args_fail(const Args* args, int code, const char* format, ...) {
+  char message[MESSAGE_SIZE];
   va_list list;
   va_start(list, format);
-  (void)fprintf(stderr, "%s: ", args->command);
-  (void)vfprintf(stderr, format, list);
-  (void)fputc('\n', stderr);
+  (void)vsnprintf(message, sizeof(message), format, list);
   va_end(list);
+  escape_print(stderr, args->command);
+  (void)fputs(": ", stderr);
+  escape_print(stderr, message);
+  (void)fputc('\n', stderr);
   return code;
 }
