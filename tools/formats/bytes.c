@@ -69,6 +69,12 @@ bool bytes_read(Bytes* bytes, const char* path, size_t max_size, char* error, si
   return !reason;
 }
 
+bool bytes_are_free(size_t size) {
+  void* const memory = malloc(size);
+  free(memory);
+  return memory;
+}
+
 void bytes_clear(Bytes* bytes) {
   free(bytes->data);
   *bytes = (Bytes){0};
