@@ -33,7 +33,7 @@ const char render_help[] =
     "  --rate HZ           sample rate, 48000 or the scene's own by default\n"
     "  --bits N            16, 24 or 32 (float); by default 32 for .wav, 24 for .flac\n"
     "  --gain DB           make it so many dB louder, below 0 softer\n"
-    "  --normalize[=DB]    make it as loud as brings its peak to DB, by default -1 dBFS\n"
+    "  --normalize [DB]    make it as loud as brings its peak to DB, by default -1 dBFS\n"
     "  --quiet             write nothing to the terminal but errors\n"
     "\n"
     "For a MIDI file or a score:\n"
@@ -151,12 +151,22 @@ static bool take_bits(Render* self, const char* value) {
           args_fail(&self->args, false, "--bits: found '%s', expected 16, 24 or 32", value));
 }
 
-/* --normalize alone leaves what a decoder needs to round. */
-static bool take_normalize(Render* self, const char* value) {
-  const double usual_peak_db = -1.0;
+/* Its value may be left out, so that getopt_long() does not take the next word for it. */
+static const char* next_number(const Args* args) {
+  const char* const next = args->argv[optind];
+  char* end = NULL;
+  const bool is_number = next && (strtod(next, &end), end != next && !*end);
+  optind += is_number;
+  return is_number ? next : NULL;
+}
+
+/* What a decoder rounds stays below full scale, usually. */
+static bool take_normalize(Render* self) {
+  const Args* const args = &self->args;
+  const char* const value = args->value ? args->value : next_number(args);
   self->normalizes = true;
-  self->peak_db = usual_peak_db;
-  return !value || args_number(&self->args, "--normalize", value, -100.0, 0.0, &self->peak_db);
+  self->peak_db = -1.0;
+  return !value || args_number(args, "--normalize", value, -100.0, 0.0, &self->peak_db);
 }
 
 static bool take_tail(Render* self, const char* value) {
@@ -176,7 +186,7 @@ static bool take_option(Render* self, int found) {
   case GAIN:
     return args_number(args, "--gain", value, -200.0, 200.0, &self->gain_db);
   case NORMALIZE:
-    return take_normalize(self, value);
+    return take_normalize(self);
   case QUIET:
     return self->is_quiet = true;
   case ANYWAY:
