@@ -165,6 +165,10 @@ broken_songs_are_refused() {
     refuse 1 'letter.mid: byte 0: found no MThd, expected a Standard MIDI File' render letter.mid out/x.wav
     refuse 1 'short.mid: byte 14: found no track, expected one or more' render short.mid out/x.wav
     refuse 1 'Is a directory' render . out/x.wav
+    ! grep -q score errors || fail "of a directory: '$(cat errors)'"
+    cp letter.mid letter.txt
+    refuse 1 "letter.txt: byte 0: found no MThd, expected a Standard MIDI File; a score's name ends in .score, a scene's in .scene" \
+        render letter.txt out/x.wav
 }
 
 options_may_stand_anywhere_before_two_dashes() {
@@ -203,7 +207,9 @@ broken_commands_are_refused() {
     refuse 2 "--block: found '0', expected a whole number from 1" render --block 0 note.mid out/x.wav
     refuse 2 "--tail: found '-1', expected a number from 0 to 3600, or auto" render --tail -1 note.mid out/x.wav
     refuse 2 "--tail: found '1s', expected a number from 0" render --tail 1s note.mid out/x.wav
-    refuse 2 "--bits: found '20', expected 16, 24 or 32" render --bits 20 note.mid out/x.wav
+    for bits in 8 20 0x10 16.0 '' 64; do
+        refuse 2 "--bits: found '$bits', expected 16, 24 or 32" render --bits "$bits" note.mid out/x.wav
+    done
     refuse 2 'expected .wav, .flac or .ogg' render note.mid out/x.mp3
     refuse 2 'expected .wav, .flac or .ogg' render note.mid out/wav
     refuse 2 'expected 16 or 24 for .flac' render --bits 32 note.mid out/x.flac

@@ -57,7 +57,10 @@ loss_and_stiffness_are_heard() {
 }
 
 what_never_dies_rings_for_ever() {
+    answer 0 tune --freq 440 --tau INF --masses 3 --rate 6000
+    cp log capitals
     answer 0 tune --freq 440 --tau inf --masses 3 --rate 6000
+    cmp log capitals || fail 'INF is not inf'
     same "$(grep -c 'for ever' log)" 3 'modes that ring for ever'
     same "$(quantity Z)" 0 'dampers without decay'
 }

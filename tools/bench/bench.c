@@ -38,7 +38,7 @@ const char bench_help[] =
     "\n"
     "  --scene WORDS    scenes: only those with all WORDS, with - between: bending, "
     "ground-still-2\n"
-    "  --numbers KIND   scenes: only float, double or fixed\n"
+    "  --numbers KIND   scenes: only float, double or fixed, which are whole numbers\n"
     "  --masses N       scenes, survey: strings of N masses only; blocks: of N at most,\n"
     "                   instead of 256\n"
     "  --seconds S      a part takes about S seconds, and in any case measures all once\n"

@@ -1,5 +1,6 @@
 #include "tools/commands/args.h"
 
+#include "tools/commands/near_miss.h"
 #include "tools/formats/escape.h"
 
 #include <math.h>
@@ -8,7 +9,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MESSAGE_SIZE = 8192 };
+enum { MESSAGE_SIZE = 8192, MAX_OPTION = 64 };
+
+/* There is no such option, or there are two that begin so. */
+static int refuse(const Args* args, const char* word) {
+  char hint[MAX_OPTION];
+  char name[MAX_OPTION];
+  (void)snprintf(name, sizeof(name), "%.*s", (int)strcspn(word, "="), word);
+  NearMiss miss = near_miss_of(name + strspn(name, "-"));
+  for (const struct option* i = args->options; i->name; ++i) {
+    near_miss_try(&miss, i->name);
+  }
+  if (miss.name) {
+    (void)snprintf(hint, sizeof(hint), "; did you mean --%s?", miss.name);
+  }
+  return args_fail(args, ARGS_ERROR, "no option '%s'; try hooke help%s", word,
+                   miss.name ? hint : "");
+}
 
 int args_next(Args* args) {
   const char* const word = args->argv[optind];
@@ -26,7 +43,7 @@ int args_next(Args* args) {
     return args_fail(args, ARGS_ERROR, "%s needs a value", word);
   case '?':
     return optopt < ARGS_OPTION
-               ? args_fail(args, ARGS_ERROR, "no option '%s'; try hooke help", word)
+               ? refuse(args, word)
                : args_fail(args, ARGS_ERROR, "%.*s takes no value", (int)strcspn(word, "="), word);
   default:
     return found;

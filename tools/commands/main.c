@@ -66,6 +66,8 @@ static int refuse(const char* name) {
   for (unsigned i = 0; i < N_COMMANDS; ++i) {
     near_miss_try(&miss, commands[i].name);
   }
+  near_miss_try(&miss, "help");
+  near_miss_try(&miss, "--version");
   return args_fail(&HOOKE, ARGS_USAGE, "found '%s', expected a command, %s; try hooke --help%s",
                    name, names(text), near_miss_hint(&miss, hint, sizeof(hint)));
 }
@@ -104,7 +106,8 @@ static int run(int argc, char** argv) {
     return ARGS_OK;
   }
   if (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help")) {
-    return help(argc > 2 ? argv[2] : NULL);
+    return argc > 3 ? args_fail(&HOOKE, ARGS_USAGE, "found '%s' too, expected one command", argv[3])
+                    : help(argc > 2 ? argv[2] : NULL);
   }
   const Command* const command = find_command(word);
   if (!command) {

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_LETTERS = 63 };
+enum { MAX_LETTERS = 63, LEAST_BEGINNING = 3 };
 
 static bool are_alike(char a, char b) {
   return tolower((unsigned char)a) == tolower((unsigned char)b);
@@ -38,6 +38,15 @@ static size_t distance(const char* a, size_t n_a, const char* b, size_t n_b) {
   return d[n_a][n_b];
 }
 
+/* Whether so much of the name was written that the rest is clear. */
+static bool is_begun(const char* word, size_t n_word, const char* name, size_t n_name) {
+  bool is_begun = n_word >= LEAST_BEGINNING && n_word <= n_name;
+  for (size_t i = 0; is_begun && i < n_word; ++i) {
+    is_begun = are_alike(word[i], name[i]);
+  }
+  return is_begun;
+}
+
 NearMiss near_miss_of(const char* word) {
   return (NearMiss){.word = word, .distance = (strlen(word) + 2) / 3 + 1};
 }
@@ -48,7 +57,9 @@ void near_miss_try(NearMiss* miss, const char* name) {
   if (n_word > MAX_LETTERS || n_name > MAX_LETTERS) {
     return;
   }
-  const size_t d = distance(miss->word, n_word, name, n_name);
+  const size_t d = is_begun(miss->word, n_word, name, n_name)
+                       ? n_word < n_name
+                       : distance(miss->word, n_word, name, n_name);
   if (d < miss->distance && d < n_name) {
     miss->distance = d;
     miss->name = name;

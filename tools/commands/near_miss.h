@@ -17,7 +17,8 @@ typedef struct {
 NearMiss near_miss_of(const char* word);
 
 /** Look at one more name, which is to live as long as the search. A letter that is missing, too
- * much, another one or in its neighbour's place is one step away; capital or small is none. */
+ * much, another one or in its neighbour's place is one step away, and so is all that is missing
+ * behind the first three or more; capital or small is none. */
 void near_miss_try(NearMiss* miss, const char* name);
 
 /** Write "; did you mean NAME?" into `hint`, or nothing where no name is near. @return `hint` */

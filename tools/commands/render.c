@@ -146,9 +146,14 @@ static bool take_operand(Render* self, const char* value) {
 }
 
 static bool take_bits(Render* self, const char* value) {
-  return args_whole(&self->args, "--bits", value, 16, 32, &self->bits) &&
-         (self->bits == 16 || self->bits == 24 || self->bits == 32 ||
-          args_fail(&self->args, false, "--bits: found '%s', expected 16, 24 or 32", value));
+  static const char* const depths[] = {"16", "24", "32"};
+  for (size_t i = 0; i < sizeof(depths) / sizeof(depths[0]); ++i) {
+    if (!strcmp(value, depths[i])) {
+      self->bits = strtol(value, NULL, 10);
+      return true;
+    }
+  }
+  return args_fail(&self->args, false, "--bits: found '%s', expected 16, 24 or 32", value);
 }
 
 /* Its value may be left out, so that getopt_long() does not take the next word for it. */
@@ -389,7 +394,10 @@ static int list(const Render* self) {
 }
 
 /* What is no MIDI file was perhaps not meant as one. */
-static const char* hint_at_ending(const char* path) {
+static const char* hint_at_ending(const char* path, const char* error) {
+  if (!strstr(error, "found no MThd")) {
+    return "";
+  }
   static const char* const songs[] = {".mid", ".midi", ".smf", ".kar", ".rmi"};
   for (size_t i = 0; i < sizeof(songs) / sizeof(songs[0]); ++i) {
     if (has_ending(path, songs[i])) {
@@ -403,7 +411,7 @@ static int render_song(const Render* self) {
   char error[ERROR_SIZE] = "";
   Smf* const smf = smf_new(self->in, error, sizeof(error));
   if (!smf) {
-    return args_fail(&self->args, ARGS_FAILURE, "%s%s", error, hint_at_ending(self->in));
+    return args_fail(&self->args, ARGS_FAILURE, "%s%s", error, hint_at_ending(self->in, error));
   }
   for (unsigned i = 0; !self->is_quiet && i < SMF_N_NOTES; ++i) {
     if (*smf->note[i]) {

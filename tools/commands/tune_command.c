@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
+#include <strings.h>
 
 const char tune_help[] =
     "usage: hooke tune --freq HZ --tau S --masses N --rate HZ [OPTION]...\n"
@@ -59,7 +59,7 @@ typedef struct {
 } Command;
 
 static bool take_tau(Command* self, const char* value) {
-  if (!strcmp(value, "inf")) {
+  if (!strcasecmp(value, "inf")) {
     self->target.tone.tau_s = HUGE_VAL;
     return true;
   }

@@ -179,7 +179,8 @@ static bool find_plugin(Host* host, const char* plugin_uri, const HostConfig* co
   const char* const colon = strchr(plugin_uri, ':');
   LilvNode* const uri = colon ? lilv_new_uri(host->world, plugin_uri) : NULL;
   if (!uri) {
-    return host_fail(host, "plugin '%s': found no URI, expected one", plugin_uri);
+    return host_fail(host, "plugin '%s': found no URI, expected one, as urn:hooke:guitar",
+                     plugin_uri);
   }
   if (config->bundle) {
     load_bundle(host, config->bundle);
