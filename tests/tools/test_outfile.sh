@@ -158,13 +158,26 @@ the_input_is_no_output() {
     cmp out/a.wav note.mid || fail 'the input is no more what it was'
 }
 
-# With stderr closed, nothing that is said goes into the sound.
+# The sound is in none of the places where something could be said, be they closed.
 closed_descriptors_are_no_files() {
-    printf 'MThd\0\0\0\006\0\0\0\001\001\340MTrk\0\0\0\014\0\220\074\144\203\140\370\0\074\0\0\370' >odd.mid
-    "$HOOKE_BIN" render --tail 0 odd.mid out/a.wav >log 2>&- <&- || fail "status $? with stderr closed"
-    sound out/a.wav 'what is said gets into the sound'
+    "$HOOKE_BIN" render --tail 0 note.mid out/a.wav >log 2>&- <&- || fail "status $? with stderr closed"
+    sound out/a.wav 'the sound of one who cannot warn'
     "$HOOKE_BIN" render --quiet --tail 0 note.mid out/b.wav >&- 2>errors || fail "status $? with stdout closed: $(cat errors)"
     sound out/b.wav 'the sound of one who cannot say anything'
+    "$HOOKE_BIN" render --tail 3600 --bits 16 note.mid out/endless.flac >log 2>&- &
+    child=$!
+    tries=0
+    until ls out/endless.flac.*.part >names 2>&1; do
+        tries=$((tries + 1))
+        test $tries -lt 100 || break
+        sleep 0.1
+    done
+    readlink /proc/$child/fd/* >open 2>errors
+    grep -q 'part$' open || fail "no unfinished file among $(cat open)"
+    readlink /proc/$child/fd/2 | grep -q 'part$' && fail 'what is warned of goes into the sound'
+    kill -TERM $child
+    wait $child 2>errors
+    child=
 }
 
 for claim in \
