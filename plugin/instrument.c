@@ -9,6 +9,7 @@
 #include "plugin/tuner_state.h"
 
 #include <lv2/core/lv2_util.h>
+#include <lv2/log/log.h>
 #include <lv2/midi/midi.h>
 
 #include <stdlib.h>
@@ -16,6 +17,10 @@
 
 /* The shortest time in which a port's change takes effect [s]; else it takes the block. */
 static const double SHORTEST_GLIDE_S = 0.005;
+
+/* Frames are counted in 32 bits: some four seconds of them, and nothing here counts as many [Hz].
+ */
+static const double MOST_RATE_HZ = 1e9;
 
 typedef struct {
   LV2_URID atom_Sequence;
@@ -191,10 +196,22 @@ static LV2_State_Status restore(LV2_Handle handle,
   return tuner_state_restore(self->tuner, retrieve, state, features);
 }
 
+static bool takes_rate(double rate_hz, const LV2_URID_Map* map, const LV2_Log_Log* log) {
+  const bool is_taken = rate_hz > 0.0 && rate_hz <= MOST_RATE_HZ;
+  if (!is_taken && log) {
+    (void)log->printf(log->handle, map->map(map->handle, LV2_LOG__Error),
+                      "hooke: found a rate of %g Hz, expected one above 0 and up to %g Hz\n",
+                      rate_hz, MOST_RATE_HZ);
+  }
+  return is_taken;
+}
+
 LV2_Handle
 instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* const* features) {
   const LV2_URID_Map* const map = lv2_features_data(features, LV2_URID__map);
-  Instrument* const self = map ? calloc(1, sizeof(Instrument)) : NULL;
+  const bool is_possible =
+      map && takes_rate(rate_hz, map, lv2_features_data(features, LV2_LOG__log));
+  Instrument* const self = is_possible ? calloc(1, sizeof(Instrument)) : NULL;
   if (!self) {
     return NULL;
   }

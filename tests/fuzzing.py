@@ -7,7 +7,7 @@ fuzz_NAME looks for more with libFuzzer, which only clang has, in code that ASan
 import os
 
 # What a harness needs of tools/ and of the analysis; the rest of it needs libraries that are none of ours to fuzz.
-TOOLS = ['tools/formats/%s.c' % name for name in ['bytes', 'text', 'smf', 'scene*', 'score*']] + ['core/analysis/network*.c']
+TOOLS = ['tools/formats/%s.c' % name for name in ['bytes', 'escape', 'text', 'smf', 'scene*', 'score*']] + ['core/analysis/network*.c']
 
 FLAGS = ['-std=c11', '-O1', '-g', '-w', '-fno-omit-frame-pointer', '-fno-sanitize-recover=all', '-fno-math-errno',
          '-fno-trapping-math', '-ffp-contract=off']

@@ -754,7 +754,7 @@ def sentences(error, unit, strings, default, level):
 
     def named(row):
         return '%d masses as %s (%s)' % (row['masses'], row['crowd'], row['scheme'] if row['kind'] == 'network'
-                                         else {'fixed': 'whole numbers'}.get(row['numbers'], row['numbers'] + 's'))
+                                         else {'fixed': 'fixed point'}.get(row['numbers'], row['numbers'] + 's'))
 
     def of_80(**wanted):
         return told(next(row for row in strings if row['masses'] == 80.0
@@ -768,10 +768,10 @@ def sentences(error, unit, strings, default, level):
         words += 'the cheapest with masses that is as true, %s, has %s.' % (named(cheapest), told(cheapest))
     if error == 'partials_cents':
         kinds = [of_80(crowd='chain, ' + kind, numbers='fixed') for kind in ('Lumped', 'True', 'Truest')]
-        words += ' Of 80 masses in whole numbers Lumped partials have %s, True ones %s, Truest ones %s.' % tuple(kinds)
+        words += ' Of 80 masses in fixed point Lumped partials have %s, True ones %s, Truest ones %s.' % tuple(kinds)
     elif unit == 'dB':
         floats, whole = ([row[error] for row in strings if row['numbers'] == kind] for kind in ('float', 'fixed'))
-        words += ' Floats have %.0f to %.0f dB and whole numbers %.0f to %.0f; doubles are what they are held against.' % (
+        words += ' Floats have %.0f to %.0f dB and fixed point %.0f to %.0f; doubles are what they are held against.' % (
             min(floats), max(floats), min(whole), max(whole))
     else:
         words += ' Not solved for what is heard, 80 masses have %s as a chain, and %s link by link as in the paper.' % (

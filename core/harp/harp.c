@@ -147,13 +147,15 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   assert(channel < HARP_CHANNELS && key < HARP_KEYS);
   HarpString* const string = harp_channels_take(harp, channel, key);
   string->is_caught = string->is_caught && string->channel == channel;
-  string->channel = channel;
+  const double louder = harp_channels_hand(harp, string, channel);
   string->holders |= 1u << channel;
   string->is_let_go = false;
   string->leaned_on = 0.0;
   string->touch = harp->channels[channel].touch;
   harp->is_bowed = harp->patch.exciter == EXCITER_BOW || (harp->is_bowed && !is_still(harp));
-  harp_string_play(string, pluck_of(harp, &harp->channels[channel], velocity), harp->n_gesture);
+  Pluck pluck = pluck_of(harp, &harp->channels[channel], velocity);
+  pluck.amplitude *= louder;
+  harp_string_play(string, pluck, harp->n_gesture);
 }
 
 /* Its key is up: the damper falls, as far as it may. */
@@ -173,7 +175,7 @@ static void hand_on(Harp* harp, HarpString* string) {
   while (!harp_channels_holds(string, channel)) {
     ++channel;
   }
-  string->channel = channel;
+  (void)harp_channels_hand(harp, string, channel);
   string->touch = harp->channels[channel].touch;
   retune(harp, string, harp->n_gesture);
 }

@@ -3,7 +3,8 @@
 
    Each channel has pedals, a bend, a touch and a gain of its own, which act on what it has played.
    Two channels that hold the same key have a string each, as long as there are spare ones; else
-   they share one, which sounds until the last of them lets go.
+   they share one, which sounds until the last of them lets go. It then does what the one that
+   played it last does, and is heard with the gain that it was until it has died away.
 
    No string is ever stolen.  A string that has died away is at rest in exact zeros and costs
    nothing.  The samples do not depend on how the frames are cut into calls of harp_run().

@@ -1,5 +1,10 @@
 #include "core/harp/harp_channels.h"
 
+#include <math.h>
+
+/* More could be more than the numbers of a string hold. */
+static const double MOST_LOUDER = 4.0;
+
 void harp_channels_reset(HarpChannel channels[HARP_CHANNELS]) {
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     channels[channel] = (HarpChannel){.touch = HARP_TOUCH_NONE};
@@ -30,8 +35,8 @@ static double gain_of(const Harp* harp, uint32_t channel) {
 
 /* Whether nobody holds it, and its motion is as loud with the channel as it is now. */
 static bool is_free_for(const Harp* harp, const HarpString* string, uint32_t channel) {
-  return !string->holders &&
-         (!string->voice.is_awake || gain_of(harp, string->channel) == gain_of(harp, channel));
+  return !string->holders && (!string->voice.is_awake ||
+                              gain_of(harp, harp_channels_heard(string)) == gain_of(harp, channel));
 }
 
 /* A spare string for a key: one that rings at that key, or one at rest. */
@@ -61,6 +66,20 @@ HarpString* harp_channels_take(Harp* harp, uint32_t channel, uint32_t key) {
     spare->semitones = own->semitones;
   }
   return spare ? spare : own;
+}
+
+uint32_t harp_channels_heard(const HarpString* string) {
+  return string->lender ? string->lender - 1 : string->channel;
+}
+
+double harp_channels_hand(const Harp* harp, HarpString* string, uint32_t channel) {
+  const uint32_t heard = harp_channels_heard(string);
+  const double old = gain_of(harp, heard);
+  const double gain = gain_of(harp, channel);
+  const bool would_step = string->voice.is_awake && old > 0.0 && old != gain;
+  string->lender = would_step ? 1 + heard : 0;
+  string->channel = channel;
+  return would_step ? fmin(gain / old, MOST_LOUDER) : 1.0;
 }
 
 uint32_t harp_channels_pedal(const Harp* harp) {

@@ -17,9 +17,21 @@ bool harp_channels_holds(const HarpString* string, uint32_t channel);
 /** The string that a channel holds down at a key; NULL: none. */
 HarpString* harp_channels_held(Harp* harp, uint32_t channel, uint32_t key);
 
-/** The string that a channel is to play when it takes a key.  What rings with another channel's
- * gain is left alone while there is a spare string. */
+/** The string that a channel is to play when it takes a key.  What another channel holds, or what
+ * rings with another gain, is left alone while there is a spare string; else it is shared. */
 HarpString* harp_channels_take(Harp* harp, uint32_t channel, uint32_t key);
+
+/** The channel with whose gain a string is heard. */
+uint32_t harp_channels_heard(const HarpString* string);
+
+/**
+   Let a channel have a string, which may ring: what is heard of it makes no step, so that it is
+   heard with the gain that it was, if the channel's is another, until it has died away.
+
+   @return What a note is to be multiplied by, to be as loud as with the channel's own gain; 4 at
+   most
+*/
+double harp_channels_hand(const Harp* harp, HarpString* string, uint32_t channel);
 
 /** The channel whose pedal lifts dampers the most. */
 uint32_t harp_channels_pedal(const Harp* harp);

@@ -3,6 +3,7 @@
 #include "core/base/finite.h"
 #include "core/base/maths.h"
 #include "core/harp/harp_bridge.h"
+#include "core/harp/harp_channels.h"
 #include "core/string/pickup.h"
 
 #include <math.h>
@@ -58,7 +59,7 @@ gather_bus(Harp* harp, uint32_t n_parts, bool are_tied, uint8_t bus, const Readi
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
     if (string->voice.is_awake && tie_is_on(&string->voice.tie) == are_tied &&
-        bus_of(harp, string->channel) == bus) {
+        bus_of(harp, harp_channels_heard(string)) == bus) {
       voice_share(&string->voice, are_tied);
       harp->buses[n_parts] = bus;
       add_part(harp, n_parts++, string, reading);
@@ -77,8 +78,17 @@ static uint32_t gather_some(Harp* harp, uint32_t n_parts, bool are_tied, const R
   return n_parts;
 }
 
+/* What has died away has no gain lent to it any more. */
+static void end_loans(Harp* harp) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    HarpString* const string = &harp->strings[i];
+    string->lender = string->voice.is_awake ? string->lender : 0;
+  }
+}
+
 /* The strings awake, and where they are read. */
 static uint32_t gather(Harp* harp, const Reading* reading) {
+  end_loans(harp);
   const uint32_t n_tied = gather_some(harp, 0, true, reading);
   harp_bridge_gather(harp, n_tied);
   return gather_some(harp, n_tied, false, reading);

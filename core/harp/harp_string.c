@@ -109,6 +109,7 @@ void harp_string_rest(HarpString* string) {
   string->lift = 0.0;
   string->holders = 0;
   string->channel = 0;
+  string->lender = 0;
   string->is_caught = false;
   string->is_let_go = false;
   string->leaned_on = 0.0;

@@ -37,6 +37,7 @@ typedef struct {
   /* Who plays it; the harp's */
   uint32_t holders; /**< The channels that hold its key down, a bit each */
   uint32_t channel; /**< The channel that played it last */
+  uint32_t lender;  /**< 1 + the channel with whose gain it is heard while it rings; 0: `channel` */
   bool is_caught;   /**< Its damper is held up by the sostenuto pedal */
   bool is_let_go;   /**< It follows the channel no more */
   double leaned_on; /**< Pressure of its key alone, 0 to 1 */

@@ -4,12 +4,14 @@
 #include "tests/support/harps.h"
 #include "tests/support/measure.h"
 #include "tests/support/oracle.h"
+#include "tests/support/random.h"
 
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -256,6 +258,154 @@ static void what_rings_with_another_gain_is_left_alone(void** state) {
   harp_free(harp);
 }
 
+/* All spare strings are held, and KEY + 2 has three strings: its own is the first channel's. */
+static Harp* crowded_harp(void) {
+  Harp* const harp = harp_notes_harp();
+  for (uint32_t key = KEY; key < KEY + 3; ++key) {
+    const uint32_t n = key < KEY + 2 ? HARP_CHANNELS : 3;
+    for (uint32_t channel = 0; channel < n; ++channel) {
+      harp_note_on(harp, channel, key, 100);
+    }
+  }
+  assert_int_equal(harp_report(harp).n_strings, 3 + HARP_SPARES);
+  return harp;
+}
+
+/*
+  What rings of a key that is shared goes on as loud as it was, whoever takes it with whatever gain,
+  and also when it is handed back; and what is added is as loud as if it had its own string.
+*/
+static void a_shared_string_makes_no_step(void** state) {
+  (void)state;
+  enum { SECOND = 3, N = RATE / 10 };
+  static float alone[RATE];
+  static float without[RATE];
+  static const double gains[][2] = {{1.0, 0.25}, {0.5, 1.0}, {0.25, 0.5}, {0.5, 0.5}, {1.0, 0.0}};
+  for (int type = 0; type < 2; ++type) {
+    for (size_t i = 0; i < sizeof(gains) / sizeof(gains[0]); ++i) {
+      Harp* const harps[] = {crowded_harp(), crowded_harp(), harp_notes_harp()};
+      HarpPatch patch = harp_notes_patch();
+      patch.pickup_type = (PickupType)type;
+      for (size_t k = 0; k < 3; ++k) {
+        harp_set_patch(harps[k], &patch, 0);
+        harp_set_gain(harps[k], 0, gains[i][0]);
+        harp_set_gain(harps[k], SECOND, gains[i][1]);
+        harps_run(harps[k], N, NULL, NULL);
+      }
+      harp_note_on(harps[0], SECOND, KEY + 2, 60);
+      harp_note_on(harps[2], SECOND, KEY + 2, 60);
+      assert_int_equal(harps[0]->strings[KEY + 2].holders, 1 | 1 << SECOND);
+      harps_run(harps[0], N, left, NULL);
+      harps_run(harps[1], N, without, NULL);
+      harps_run(harps[2], N, alone, NULL);
+      double error = 0.0;
+      for (uint32_t n = 0; n < N; ++n) {
+        error = fmax(error, fabs((double)left[n] - (double)without[n] - (double)alone[n]));
+      }
+      /* Sums of 35 strings in floats, and differences of such sums. */
+      const double most = type == PICKUP_VELOCITY ? 1e-4 : 1e-5;
+      assert_within("of full scale", error, most);
+      assert_true(measure_peak(alone, N) > (gains[i][1] > 0.0 ? 0.01 : -1.0));
+      /* Handed back, it is still what it was. */
+      harp_note_off(harps[0], SECOND, KEY + 2);
+      harps_run(harps[0], N, left, NULL);
+      harps_run(harps[1], N, without, NULL);
+      harps_run(harps[2], N, alone, NULL);
+      error = 0.0;
+      for (uint32_t n = 0; n < N; ++n) {
+        error = fmax(error, fabs((double)left[n] - (double)without[n] - (double)alone[n]));
+      }
+      assert_within("of full scale once it is handed back", error, most);
+      for (size_t k = 0; k < 3; ++k) {
+        harp_free(harps[k]);
+      }
+    }
+  }
+}
+
+/* What is heard with a gain that was lent is heard with its channel's again from the next note on,
+ * once it has died away. */
+static void a_loan_of_a_gain_ends_with_the_sound(void** state) {
+  (void)state;
+  enum { SECOND = 3 };
+  Harp* const harp = crowded_harp();
+  const HarpString* const shared = &harp->strings[KEY + 2];
+  harp_set_gain(harp, SECOND, 0.25);
+  harps_run(harp, harp->n_gesture, NULL, NULL);
+  harp_note_on(harp, SECOND, KEY + 2, 60);
+  assert_int_equal(harp_channels_heard(shared), 0);
+  assert_int_equal(shared->channel, SECOND);
+  harp_silence(harp);
+  harps_run(harp, RATE, NULL, NULL);
+  assert_int_equal(harp_report(harp).n_strings, 0);
+  harps_run(harp, 1, NULL, NULL);
+  assert_int_equal(harp_channels_heard(shared), shared->channel);
+  harp_note_on(harp, SECOND, KEY + 2, 60);
+  assert_int_equal(harp_channels_heard(shared), SECOND);
+  harp_free(harp);
+}
+
+/* What each channel holds, as a keyboard knows it, and what the harp's strings say: they agree
+ * after each of many notes, many more than there are strings. */
+static void check_holders(const Harp* harp, bool held[HARP_CHANNELS][HARP_KEYS]) {
+  uint32_t found[HARP_KEYS] = {0};
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    const HarpString* const string = &harp->strings[i];
+    assert_int_equal(found[string->key] & string->holders, 0);
+    found[string->key] |= string->holders;
+  }
+  for (uint32_t key = 0; key < HARP_KEYS; ++key) {
+    for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+      assert_int_equal(found[key] >> channel & 1, held[channel][key]);
+    }
+  }
+}
+
+static void no_note_off_is_lost_however_many_hold_a_key(void** state) {
+  (void)state;
+  enum { N_NOTES = 20000, N_KEYS = 5 };
+  static bool held[HARP_CHANNELS][HARP_KEYS];
+  memset(held, 0, sizeof(held));
+  Random random = random_start();
+  Harp* const harp = harp_notes_harp();
+  uint32_t most = 0;
+  for (int i = 0; i < N_NOTES; ++i) {
+    const uint32_t channel = random_below(&random, HARP_CHANNELS);
+    const uint32_t key = KEY + random_below(&random, N_KEYS);
+    const uint32_t what = random_below(&random, 100);
+    if (what < 60) {
+      harp_note_on(harp, channel, key, 1 + random_below(&random, 127));
+      held[channel][key] = true;
+    } else if (what < 98) {
+      harp_note_off(harp, channel, key);
+      held[channel][key] = false;
+    } else {
+      (what == 98 ? harp_all_notes_off : harp_all_sound_off)(harp, channel);
+      memset(held[channel], 0, sizeof(held[channel]));
+    }
+    harp_set_gain(harp, channel, random_below(&random, 3) / 2.0);
+    if (i % 50 == 0) {
+      harps_run(harp, 64, NULL, NULL);
+    }
+    uint32_t n_spares = 0;
+    for (uint32_t k = HARP_KEYS; k < HARP_STRINGS; ++k) {
+      n_spares += harp->strings[k].holders != 0;
+    }
+    most = n_spares > most ? n_spares : most;
+    check_holders(harp, held);
+  }
+  assert_int_equal(most, HARP_SPARES);
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    for (uint32_t key = 0; key < HARP_KEYS; ++key) {
+      harp_note_off(harp, channel, key);
+    }
+  }
+  harps_run(harp, RATE, NULL, NULL);
+  harps_run(harp, RATE, NULL, NULL);
+  assert_int_equal(harp_report(harp).n_strings, 0);
+  harp_free(harp);
+}
+
 /* Who holds a shared string bends it, once the one that played it last has let go; and it is no
  * longer stopped with the other's. */
 static void a_shared_string_is_handed_on(void** state) {
@@ -361,6 +511,9 @@ int main(void) {
       cmocka_unit_test(a_channel_has_a_gain_of_its_own),
       cmocka_unit_test(a_gain_moves_in_a_straight_line),
       cmocka_unit_test(what_rings_with_another_gain_is_left_alone),
+      cmocka_unit_test(a_shared_string_makes_no_step),
+      cmocka_unit_test(a_loan_of_a_gain_ends_with_the_sound),
+      cmocka_unit_test(no_note_off_is_lost_however_many_hold_a_key),
       cmocka_unit_test(a_shared_string_is_handed_on),
       cmocka_unit_test(a_spare_string_can_have_any_key_in_turn),
       cmocka_unit_test(what_is_let_go_keeps_its_touch_but_not_its_pedal),

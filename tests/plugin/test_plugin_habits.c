@@ -5,14 +5,17 @@
 #include "tests/support/measure.h"
 #include "tests/support/strings_host.h"
 
+#include <lv2/log/log.h>
+#include <lv2/urid/urid.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
 
-enum { RATE = 48000, BLOCK = 256, N_FRAMES = 40 * BLOCK };
+enum { RATE = 48000, BLOCK = 256, N_FRAMES = 40 * BLOCK, LINE_SIZE = 256 };
 
 static void play_piece(Host* host, size_t offset) {
   strings_note_on(host, offset + 3, 45, 100);
@@ -169,14 +172,34 @@ static void it_wants_a_map_and_nothing_else(void** state) {
   host_free(poor);
 }
 
+static int keep_line(LV2_Log_Handle handle, LV2_URID type, const char* format, ...) {
+  va_list args;
+  (void)type;
+  va_start(args, format);
+  const int n = vsnprintf((char*)handle, LINE_SIZE, format, args);
+  va_end(args);
+  return n;
+}
+
+/* What is no rate, and those at which times in frames would have more than 32 bits; the log names
+ * those that are taken. */
 static void no_rate_is_refused(void** state) {
-  static const double rates_hz[] = {0.0, -48000.0, (double)NAN, HUGE_VAL};
+  static const double rates_hz[] = {0.0, -48000.0, (double)NAN, HUGE_VAL, 1.0000001e9, 1e12, 1e300};
   (void)state;
+  char line[LINE_SIZE];
+  LV2_Log_Log log = {.handle = line, .printf = keep_line};
+  const LV2_Feature logged = {LV2_LOG__log, &log};
   Host* const host = strings_open(RATE, BLOCK);
-  for (int i = 0; i < 4; ++i) {
-    assert_null(lilv_plugin_instantiate(host_plugin(host), rates_hz[i], host_features(host)));
+  const LV2_Feature* const features[] = {&logged, host_features(host)[0], NULL};
+  assert_string_equal(features[1]->URI, LV2_URID__map);
+  for (size_t i = 0; i < sizeof(rates_hz) / sizeof(rates_hz[0]); ++i) {
+    *line = '\0';
+    assert_null(lilv_plugin_instantiate(host_plugin(host), rates_hz[i], features));
+    assert_non_null(strstr(line, " Hz, expected one above 0 and up to 1e+09 Hz\n"));
+    assert_null(lilv_plugin_instantiate(host_plugin(host), rates_hz[i], features + 1));
   }
   host_free(host);
+  host_free(strings_open(1e9, BLOCK));
 }
 
 /* The sound depends neither on whether the host renders faster than time nor on when it says so. */

@@ -75,7 +75,7 @@ page_is_whole() {
 errors_are_told() {
     default=$(awk -F, '$1 == 55 && $2 == 0 && $3 == 48000 && $4 == "chain" && $6 == "fixed" && $7 == "Truest" && $9 == 128 {
         printf "errs by %.2g cents for %.3g ns (%.2f %% of a core)", $15, $11, 100 * $12 }' new/survey.csv)
-    grep -qF "At 55 Hz the default, 128 masses as chain, Truest (whole numbers), $default" new/report.md ||
+    grep -qF "At 55 Hz the default, 128 masses as chain, Truest (fixed point), $default" new/report.md ||
         fail "the report does not say: $default"
     grep -q 'link by link as in the paper' new/report.md || fail 'nothing of the scheme of the paper'
 }

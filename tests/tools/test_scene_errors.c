@@ -112,7 +112,7 @@ static const struct {
     {HEAD "end 0\n", 6, "found '0', expected a duration above 0"},
     {HEAD "pickup a loud\n", 6, "found 'loud', expected a gain"},
     {HEAD "pickup a\n", 6, "found the end of the line, expected a gain"},
-    {HEAD "mass a\033[31m 5\n" TAIL, 6, "found 'a?[31m', expected a new name"},
+    {HEAD "mass a\033[31m 5\n" TAIL, 6, "found 'a\\x1b[31m', expected a new name"},
     {"rate 6000\r\nmass a 1\r\nmass a 2\r\n", 3, "found 'a', declared in line 2"},
     {"rate 6000\nbad", 2, "found 'bad', expected rate"},
 };

@@ -187,7 +187,7 @@ static const struct {
     {"preset", EOL "the name of a preset"},
     {"preset # A", EOL "the name of a preset"},
     {"preset A\npreset A", "a second 'preset', expected the one in line 1 only"},
-    {"0 pluck \033[31m", "'?[31m'" STRING},
+    {"0 pluck \033[31m", "'\\x1b[31m'" STRING},
     {"0 mute\r\n0 mute\r\n0 muse\r", "'muse'" VERB},
     {"\xef\xbb\xbf"
      "0 muse",

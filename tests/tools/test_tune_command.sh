@@ -57,7 +57,10 @@ loss_and_stiffness_are_heard() {
 }
 
 what_never_dies_rings_for_ever() {
+    answer 0 tune --freq 440 --tau INF --masses 3 --rate 6000
+    cp log capitals
     answer 0 tune --freq 440 --tau inf --masses 3 --rate 6000
+    cmp log capitals || fail 'INF is not inf'
     same "$(grep -c 'for ever' log)" 3 'modes that ring for ever'
     same "$(quantity Z)" 0 'dampers without decay'
 }
@@ -103,7 +106,7 @@ what_is_wrong_is_refused() {
     refuse 2 'found no --rate' tune --freq 440 --tau 1 --masses 5
     refuse 2 'expected a pitch below half the rate, 3000 Hz' tune --freq 3000 --tau 1 --masses 5 --rate 6000
     refuse 2 "--freq: found '-1', expected a number" tune $paper --freq -1
-    refuse 2 "--tau: found '0', expected a number" tune $paper --tau 0
+    refuse 2 "--tau: found '0', expected a number from 1e-09 to 1e+09, or inf" tune $paper --tau 0
     refuse 2 "--masses: found '2.5', expected a whole number" tune $paper --masses 2.5
     refuse 2 "--loss: found '1.1', expected a number from 0 to 1" tune $paper --loss 1.1
     refuse 2 'found --mode for a string' tune $paper --mode 2

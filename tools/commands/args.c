@@ -1,10 +1,31 @@
 #include "tools/commands/args.h"
 
+#include "tools/commands/near_miss.h"
+#include "tools/formats/escape.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { MESSAGE_SIZE = 8192, MAX_OPTION = 64 };
+
+/* There is no such option, or there are two that begin so. */
+static int refuse(const Args* args, const char* word) {
+  char hint[MAX_OPTION];
+  char name[MAX_OPTION];
+  (void)snprintf(name, sizeof(name), "%.*s", (int)strcspn(word, "="), word);
+  NearMiss miss = near_miss_of(name + strspn(name, "-"));
+  for (const struct option* i = args->options; i->name; ++i) {
+    near_miss_try(&miss, i->name);
+  }
+  if (miss.name) {
+    (void)snprintf(hint, sizeof(hint), "; did you mean --%s?", miss.name);
+  }
+  return args_fail(args, ARGS_ERROR, "no option '%s'; try hooke help%s", word,
+                   miss.name ? hint : "");
+}
 
 int args_next(Args* args) {
   const char* const word = args->argv[optind];
@@ -22,7 +43,7 @@ int args_next(Args* args) {
     return args_fail(args, ARGS_ERROR, "%s needs a value", word);
   case '?':
     return optopt < ARGS_OPTION
-               ? args_fail(args, ARGS_ERROR, "no option '%s'; try hooke help", word)
+               ? refuse(args, word)
                : args_fail(args, ARGS_ERROR, "%.*s takes no value", (int)strcspn(word, "="), word);
   default:
     return found;
@@ -31,11 +52,21 @@ int args_next(Args* args) {
 
 bool args_number(
     const Args* args, const char* what, const char* text, double min, double max, double* number) {
+  return args_number_or(args, what, text, min, max, NULL, number);
+}
+
+bool args_number_or(const Args* args,
+                    const char* what,
+                    const char* text,
+                    double min,
+                    double max,
+                    const char* word,
+                    double* number) {
   char* end = NULL;
   const double value = strtod(text, &end);
   if (end == text || *end || !isfinite(value) || value < min || value > max) {
-    return args_fail(args, false, "%s: found '%s', expected a number from %g to %g", what, text,
-                     min, max);
+    return args_fail(args, false, "%s: found '%s', expected a number from %g to %g%s%s", what, text,
+                     min, max, word ? ", or " : "", word ? word : "");
   }
   *number = value;
   return true;
@@ -55,11 +86,14 @@ bool args_whole(
 }
 
 int args_fail(const Args* args, int code, const char* format, ...) {
+  char message[MESSAGE_SIZE];
   va_list list;
   va_start(list, format);
-  (void)fprintf(stderr, "%s: ", args->command);
-  (void)vfprintf(stderr, format, list);
-  (void)fputc('\n', stderr);
+  (void)vsnprintf(message, sizeof(message), format, list);
   va_end(list);
+  escape_print(stderr, args->command);
+  (void)fputs(": ", stderr);
+  escape_print(stderr, message);
+  (void)fputc('\n', stderr);
   return code;
 }

@@ -40,11 +40,21 @@ int args_next(Args* args);
 bool args_number(
     const Args* args, const char* what, const char* text, double min, double max, double* number);
 
+/** args_number(), and `word`, which the caller has looked for, is named among what is expected. */
+bool args_number_or(const Args* args,
+                    const char* what,
+                    const char* text,
+                    double min,
+                    double max,
+                    const char* word,
+                    double* number);
+
 /** args_number() for whole numbers. */
 bool args_whole(
     const Args* args, const char* what, const char* text, long min, long max, long* number);
 
-/** Write "COMMAND: message" as one line to stderr. @return `code` */
+/** Write "COMMAND: message" as one line to stderr, whatever is in names of files: see escape.h.
+    @return `code` */
 __attribute__((format(printf, 3, 4))) int
 args_fail(const Args* args, int code, const char* format, ...);
 

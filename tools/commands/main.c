@@ -1,10 +1,17 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include "tools/bench/bench.h"
 #include "tools/commands/args.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/near_miss.h"
 #include "tools/formats/score.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #ifndef HOOKE_VERSION
 #define HOOKE_VERSION "unknown"
@@ -25,7 +32,7 @@ static const Command commands[] = {
     {"bench", "measure what strings and instruments cost on this machine", bench_help, bench_main},
 };
 
-enum { N_COMMANDS = sizeof(commands) / sizeof(commands[0]) };
+enum { N_COMMANDS = sizeof(commands) / sizeof(commands[0]), NAMES_SIZE = 128 };
 
 static const Command* find_command(const char* name) {
   for (unsigned i = 0; i < N_COMMANDS; ++i) {
@@ -36,9 +43,33 @@ static const Command* find_command(const char* name) {
   return NULL;
 }
 
+static const Args HOOKE = {.command = "hooke"};
+
+/* All commands there are, as a sentence has them. */
+static const char* names(char text[NAMES_SIZE]) {
+  *text = '\0';
+  for (unsigned i = 0; i < N_COMMANDS; ++i) {
+    const size_t length = strlen(text);
+    (void)snprintf(text + length, NAMES_SIZE - length, "%s%s",
+                   i == 0                ? ""
+                   : i + 1 == N_COMMANDS ? " or "
+                                         : ", ",
+                   commands[i].name);
+  }
+  return text;
+}
+
 static int refuse(const char* name) {
-  (void)fprintf(stderr, "hooke: found '%s', expected a command; try hooke --help\n", name);
-  return ARGS_USAGE;
+  char text[NAMES_SIZE];
+  char hint[NAMES_SIZE];
+  NearMiss miss = near_miss_of(name);
+  for (unsigned i = 0; i < N_COMMANDS; ++i) {
+    near_miss_try(&miss, commands[i].name);
+  }
+  near_miss_try(&miss, "help");
+  near_miss_try(&miss, "--version");
+  return args_fail(&HOOKE, ARGS_USAGE, "found '%s', expected a command, %s; try hooke --help%s",
+                   name, names(text), near_miss_hint(&miss, hint, sizeof(hint)));
 }
 
 static int help_all(void) {
@@ -56,27 +87,27 @@ static int help(const char* name) {
   if (!name) {
     return help_all();
   }
-  if (!strcmp(name, "score")) {
-    return fputs(score_help, stdout) < 0 ? ARGS_FAILURE : ARGS_OK;
-  }
-  if (!command) {
+  if (!command && strcmp(name, "score") != 0) {
     return refuse(name);
   }
-  (void)fputs(command->help, stdout);
+  (void)fputs(command ? command->help : score_help, stdout);
   return ARGS_OK;
 }
 
-int main(int argc, char** argv) {
+static int run(int argc, char** argv) {
+  char text[NAMES_SIZE];
   if (argc < 2) {
-    (void)fprintf(stderr, "hooke: found no command, expected one; try hooke --help\n");
-    return ARGS_USAGE;
+    return args_fail(&HOOKE, ARGS_USAGE, "found no command, expected %s; try hooke --help",
+                     names(text));
   }
   const char* const word = argv[1];
   if (!strcmp(word, "--version")) {
-    return puts("hooke " HOOKE_VERSION) < 0 ? ARGS_FAILURE : ARGS_OK;
+    (void)puts("hooke " HOOKE_VERSION);
+    return ARGS_OK;
   }
   if (!strcmp(word, "--help") || !strcmp(word, "-h") || !strcmp(word, "help")) {
-    return help(argc > 2 ? argv[2] : NULL);
+    return argc > 3 ? args_fail(&HOOKE, ARGS_USAGE, "found '%s' too, expected one command", argv[3])
+                    : help(argc > 2 ? argv[2] : NULL);
   }
   const Command* const command = find_command(word);
   if (!command) {
@@ -86,4 +117,33 @@ int main(int argc, char** argv) {
     return help(word);
   }
   return command->run(argc - 1, argv + 1);
+}
+
+/* What is said could get lost at last: in a buffer. */
+static int finish(int code) {
+  errno = 0;
+  if (!fflush(stdout) && !ferror(stdout)) {
+    return code;
+  }
+  return args_fail(&HOOKE, ARGS_FAILURE, "could not write all of the answer%s%s", errno ? ": " : "",
+                   errno ? strerror(errno) : "");
+}
+
+/* No file that is opened may pass for stdout or stderr, where they are closed: what is written to
+ * these fails now. */
+static void open_standard(void) {
+  int fd = open("/dev/null", O_RDONLY);
+  while (fd >= 0 && fd <= STDERR_FILENO) {
+    fd = open("/dev/null", O_RDONLY);
+  }
+  if (fd >= 0) {
+    (void)close(fd);
+  }
+}
+
+/* A file that may not grow is told by its write, as a full disk is. */
+int main(int argc, char** argv) {
+  open_standard();
+  (void)signal(SIGXFSZ, SIG_IGN);
+  return finish(run(argc, argv));
 }

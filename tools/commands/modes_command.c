@@ -232,9 +232,6 @@ static void print_json(const Modes* modes) {
 
 static int print(const Command* self, const Modes* modes) {
   (self->is_json ? print_json : self->is_csv ? print_csv : print_table)(modes);
-  if (fflush(stdout) || ferror(stdout)) {
-    return args_fail(&self->args, ARGS_FAILURE, "could not write all of the answer");
-  }
   return modes->is_stable ? ARGS_OK : ARGS_UNSTABLE;
 }
 

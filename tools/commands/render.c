@@ -1,8 +1,10 @@
-#define _POSIX_C_SOURCE 200809L
-
 #include "core/analysis/modes.h"
 #include "tools/commands/args.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/near_miss.h"
+#include "tools/commands/settings.h"
+#include "tools/commands/sound_out.h"
+#include "tools/formats/outfile.h"
 #include "tools/formats/scene_player.h"
 #include "tools/formats/score.h"
 #include "tools/formats/smf.h"
@@ -11,14 +13,11 @@
 #include "tools/host/locate.h"
 #include "tools/host/play.h"
 
-#include <float.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <unistd.h>
 
 const char render_help[] =
     "usage: hooke render [OPTION]... IN.mid OUT.wav\n"
@@ -33,16 +32,21 @@ const char render_help[] =
     "For all:\n"
     "  --rate HZ           sample rate, 48000 or the scene's own by default\n"
     "  --bits N            16, 24 or 32 (float); by default 32 for .wav, 24 for .flac\n"
+    "  --gain DB           make it so many dB louder, below 0 softer\n"
+    "  --normalize [DB]    make it as loud as brings its peak to DB, by default -1 dBFS\n"
     "  --quiet             write nothing to the terminal but errors\n"
     "\n"
     "For a MIDI file or a score:\n"
     "  --preset NAME       start from a preset, by its name or URI; a score's own is not loaded\n"
-    "  --set SYMBOL=VALUE  set a control, after the preset and what a score sets; may be repeated\n"
+    "  --set SYMBOL=VALUE  set a control, by a number or a name such as bow or off, after the\n"
+    "                      preset and what a score sets; may be repeated\n"
     "  --block N           frames in a block, 256 by default\n"
-    "  --tail S            seconds after the end; by default until silent, at most 10\n"
+    "  --tail S            seconds after the end; auto, the default: until it has died away by\n"
+    "                      80 dB, at most a minute\n"
     "  --plugin URI        the plugin, by default urn:hooke:strings for a MIDI file and\n"
     "                      urn:hooke:guitar for a score\n"
     "  --list-presets      write the names of the presets, and no sound\n"
+    "  --list-controls     write symbol, range, default and unit or names of the controls\n"
     "\n"
     "For a scene:\n"
     "  --anyway            render it even if it is unstable, as long as its numbers are finite\n"
@@ -55,6 +59,7 @@ const char render_help[] =
 enum {
   ERROR_SIZE = 4608,
   PATH_SIZE = 4096,
+  HINT_SIZE = 256,
   SCENE_BLOCK = 256,        /* Frames between two looks at the whole */
   MAX_MASSES_TO_NAME = 1000 /* Above this the mode that grows is not sought */
 };
@@ -75,16 +80,34 @@ typedef struct {
   long rate_hz;            /* 0: the usual one */
   long block;              /* [frames] */
   long bits;               /* 0: the usual ones */
+  double gain_db;          /* [dB] */
+  double peak_db;          /* What --normalize makes of the peak [dBFS] */
   double tail_s;           /* Below 0: until silent */
   const char* song_option; /* One that was given and is not for scenes */
+  bool normalizes;
   bool lists_presets;
+  bool lists_controls;
   bool is_quiet;
   bool is_anyway; /* Whether a scene that is unstable is rendered too */
 } Render;
 
 /* The command line */
 
-enum { PRESET = ARGS_OPTION, SET, RATE, BLOCK, TAIL, BITS, PLUGIN, LIST_PRESETS, QUIET, ANYWAY };
+enum {
+  PRESET = ARGS_OPTION,
+  SET,
+  RATE,
+  BLOCK,
+  TAIL,
+  BITS,
+  PLUGIN,
+  LIST_PRESETS,
+  LIST_CONTROLS,
+  QUIET,
+  ANYWAY,
+  GAIN,
+  NORMALIZE
+};
 
 static const struct option options[] = {{"preset", required_argument, NULL, PRESET},
                                         {"set", required_argument, NULL, SET},
@@ -94,8 +117,11 @@ static const struct option options[] = {{"preset", required_argument, NULL, PRES
                                         {"bits", required_argument, NULL, BITS},
                                         {"plugin", required_argument, NULL, PLUGIN},
                                         {"list-presets", no_argument, NULL, LIST_PRESETS},
+                                        {"list-controls", no_argument, NULL, LIST_CONTROLS},
                                         {"quiet", no_argument, NULL, QUIET},
                                         {"anyway", no_argument, NULL, ANYWAY},
+                                        {"gain", required_argument, NULL, GAIN},
+                                        {"normalize", optional_argument, NULL, NORMALIZE},
                                         {0}};
 
 static bool has_ending(const char* path, const char* ending) {
@@ -120,9 +146,38 @@ static bool take_operand(Render* self, const char* value) {
 }
 
 static bool take_bits(Render* self, const char* value) {
-  return args_whole(&self->args, "--bits", value, 16, 32, &self->bits) &&
-         (self->bits == 16 || self->bits == 24 || self->bits == 32 ||
-          args_fail(&self->args, false, "--bits: found '%s', expected 16, 24 or 32", value));
+  static const char* const depths[] = {"16", "24", "32"};
+  for (size_t i = 0; i < sizeof(depths) / sizeof(depths[0]); ++i) {
+    if (!strcmp(value, depths[i])) {
+      self->bits = strtol(value, NULL, 10);
+      return true;
+    }
+  }
+  return args_fail(&self->args, false, "--bits: found '%s', expected 16, 24 or 32", value);
+}
+
+/* Its value may be left out, so that getopt_long() does not take the next word for it. */
+static const char* next_number(const Args* args) {
+  const char* const next = args->argv[optind];
+  char* end = NULL;
+  const bool is_number = next && (strtod(next, &end), end != next && !*end);
+  optind += is_number;
+  return is_number ? next : NULL;
+}
+
+/* What a decoder rounds stays below full scale, usually. */
+static bool take_normalize(Render* self) {
+  const Args* const args = &self->args;
+  const char* const value = args->value ? args->value : next_number(args);
+  self->normalizes = true;
+  self->peak_db = -1.0;
+  return !value || args_number(args, "--normalize", value, -100.0, 0.0, &self->peak_db);
+}
+
+static bool take_tail(Render* self, const char* value) {
+  self->tail_s = -1.0;
+  return !strcmp(value, "auto") ||
+         args_number_or(&self->args, "--tail", value, 0.0, 3600.0, "auto", &self->tail_s);
 }
 
 static bool take_option(Render* self, int found) {
@@ -133,6 +188,10 @@ static bool take_option(Render* self, int found) {
     return args_whole(args, "--rate", value, 4000, 768000, &self->rate_hz);
   case BITS:
     return take_bits(self, value);
+  case GAIN:
+    return args_number(args, "--gain", value, -200.0, 200.0, &self->gain_db);
+  case NORMALIZE:
+    return take_normalize(self);
   case QUIET:
     return self->is_quiet = true;
   case ANYWAY:
@@ -155,13 +214,19 @@ static bool take_option(Render* self, int found) {
   case BLOCK:
     return args_whole(args, "--block", value, 1, 65536, &self->block);
   case TAIL:
-    return args_number(args, "--tail", value, 0.0, 3600.0, &self->tail_s);
+    return take_tail(self, value);
   case PLUGIN:
     self->plugin = value;
     return true;
+  case LIST_CONTROLS:
+    return self->lists_controls = true;
   default:
     return self->lists_presets = true;
   }
+}
+
+static bool lists(const Render* self) {
+  return self->lists_presets || self->lists_controls;
 }
 
 /* An option that would do nothing is a mistake. */
@@ -176,12 +241,18 @@ static bool check(const Render* self) {
     return args_fail(args, false, "found --anyway for a %s, expected it for a scene only",
                      self->kind == KIND_SCORE ? "score" : "MIDI file");
   }
-  if (self->lists_presets) {
+  if (self->normalizes && self->gain_db != 0.0) {
+    return args_fail(args, false, "found --gain and --normalize, expected one of them");
+  }
+  if (lists(self)) {
     return true;
   }
   if (!self->in || !self->out) {
     return args_fail(args, false, "found no %s, expected IN.mid and OUT.wav; try hooke help render",
                      self->in ? "output" : "input");
+  }
+  if (outfile_is_same(self->out, self->in)) {
+    return args_fail(args, false, "%s: found the input itself, expected another file", self->out);
   }
   const char* const refusal = soundfile_refuse(self->out, (unsigned)self->bits);
   return !refusal || args_fail(args, false, "%s: %s", self->out, refusal);
@@ -199,51 +270,15 @@ static bool parse(Render* self) {
   return check(self);
 }
 
-/* The sound file */
-
-static void report(const Render* self, double rate_hz, const PlayResult* result) {
-  const double duration_s = (double)result->n_frames / rate_hz;
-  char peak[32] = "silent";
-  if (result->peak > 0) {
-    (void)snprintf(peak, sizeof(peak), "peak %.1f dBFS", 20.0 * log10((double)result->peak));
-  }
-  if (!self->is_quiet) {
-    printf("%s: %.2f s, %s, %.1f times as fast as real time\n", self->out, duration_s, peak,
-           duration_s / fmax(result->run_s, 1e-9));
-  }
-}
-
-static int write_file(const Render* self, const PlaySource* source) {
-  char error[ERROR_SIZE] = "";
-  PlayResult result;
-  SoundFile* const sound =
-      soundfile_new(self->out, (int)source->rate_hz, (unsigned)self->bits, error, sizeof(error));
-  if (!sound) {
-    return args_fail(&self->args, ARGS_FAILURE, "%s", error);
-  }
-  if (!play(source, sound, &result)) {
-    soundfile_free(sound);
-    return args_fail(&self->args, ARGS_FAILURE, "%s: %s", self->out, result.error);
-  }
-  if (!soundfile_finish(sound)) {
-    return args_fail(&self->args, ARGS_FAILURE, "%s: not written", self->out);
-  }
-  report(self, source->rate_hz, &result);
-  return ARGS_OK;
-}
-
-/* Signals wait until the unfinished file is gone: then they do what they do. */
-static int write_uninterrupted(const Render* self, PlaySource source) {
-  sigset_t signals;
-  sigset_t old_signals;
-  (void)sigemptyset(&signals);
-  (void)sigaddset(&signals, SIGINT);
-  (void)sigaddset(&signals, SIGTERM);
-  (void)sigprocmask(SIG_BLOCK, &signals, &old_signals);
-  source.shows_progress = !self->is_quiet && isatty(STDERR_FILENO);
-  const int code = write_file(self, &source);
-  (void)sigprocmask(SIG_SETMASK, &old_signals, NULL);
-  return code;
+static int write_sound(const Render* self, PlaySource source) {
+  const SoundOut out = {.args = &self->args,
+                        .path = self->out,
+                        .bits = (unsigned)self->bits,
+                        .gain_db = self->gain_db,
+                        .normalizes = self->normalizes,
+                        .peak_db = self->peak_db,
+                        .is_quiet = self->is_quiet};
+  return sound_out_write(&out, source);
 }
 
 /* Songs and scores, with a host */
@@ -262,41 +297,6 @@ static Host* make_host(const Render* self, double rate_hz) {
   return host;
 }
 
-/* The bound is a float, up to 6e-8 of it away from the decimal meant: allow for that, and take the
- * bound. */
-static bool set_control(const Args* args, Host* host, const char* symbol, const char* text) {
-  HostRange range = {0};
-  if (!host_range(host, symbol, &range)) {
-    return args_fail(args, false, "found '%s', expected the symbol of a control input", symbol);
-  }
-  const double min = isnan(range.min) ? -(double)FLT_MAX : (double)range.min;
-  const double max = isnan(range.max) ? (double)FLT_MAX : (double)range.max;
-  if (range.is_integer) {
-    long whole = 0;
-    const long from = (long)fmax(min, INT32_MIN);
-    const long to = (long)fmin(max, INT32_MAX);
-    return args_whole(args, symbol, text, from, to, &whole) && host_set(host, symbol, (float)whole);
-  }
-  double value = 0.0;
-  const double hair = 1e-7;
-  return args_number(args, symbol, text, min - hair * fabs(min), max + hair * fabs(max), &value) &&
-         host_set(host, symbol, (float)fmin(fmax(value, min), max));
-}
-
-/* SYMBOL=VALUE */
-static bool apply_setting(Host* host, const char* setting) {
-  const Args args = {.command = "hooke render: --set"};
-  char symbol[128];
-  const char* const equals = strchr(setting, '=');
-  const size_t length = equals ? (size_t)(equals - setting) : 0;
-  if (length == 0 || length >= sizeof(symbol)) {
-    return args_fail(&args, false, "found '%s', expected SYMBOL=VALUE", setting);
-  }
-  memcpy(symbol, setting, length);
-  symbol[length] = '\0';
-  return set_control(&args, host, symbol, equals + 1);
-}
-
 /* Messages begin with where in the score it stands, as those of its reader do. */
 static Args args_at(const Render* self, uint32_t line, char place[ERROR_SIZE]) {
   (void)snprintf(place, ERROR_SIZE, "%s: %s:%lu", self->args.command, self->in,
@@ -311,11 +311,25 @@ static bool set_as_score_says(const Render* self, const Score* score, Host* host
     char number[32];
     const Args args = args_at(self, setting->line, place);
     (void)snprintf(number, sizeof(number), "%.9g", setting->value);
-    if (!set_control(&args, host, setting->symbol, setting->text ? setting->text : number)) {
+    if (!settings_set(&args, host, setting->symbol, setting->text ? setting->text : number)) {
       return false;
     }
   }
   return true;
+}
+
+/* It may be another plugin's, or nearly one of this. */
+static const char* hint_at_preset(Host* host, const char* name, char hint[HINT_SIZE]) {
+  const char* const owner = host_preset_owner(host, name);
+  NearMiss miss = near_miss_of(name);
+  for (uint32_t i = 0; i < host_n_presets(host); ++i) {
+    near_miss_try(&miss, host_preset_label(host, i));
+  }
+  if (owner) {
+    (void)snprintf(hint, HINT_SIZE, "; this one is of --plugin %s", owner);
+    return hint;
+  }
+  return near_miss_hint(&miss, hint, HINT_SIZE);
 }
 
 /* The command line has the last word. */
@@ -326,8 +340,10 @@ static int load_preset(const Render* self, const Score* score, Host* host) {
     return ARGS_OK;
   }
   const Args args = self->preset ? self->args : args_at(self, score->preset_line, place);
-  return args_fail(&args, self->preset ? ARGS_USAGE : ARGS_FAILURE, "%s; --list-presets names them",
-                   host_error(host));
+  char hint[HINT_SIZE];
+  return args_fail(&args, self->preset ? ARGS_USAGE : ARGS_FAILURE,
+                   "%s; --list-presets names them%s", host_error(host),
+                   hint_at_preset(host, name, hint));
 }
 
 static int prepare(const Render* self, const Score* score, Host* host) {
@@ -344,8 +360,9 @@ static int prepare(const Render* self, const Score* score, Host* host) {
   if (score && !set_as_score_says(self, score, host)) {
     return ARGS_FAILURE;
   }
+  const Args args = {.command = "hooke render: --set"};
   for (size_t i = 0; i < self->n_sets; ++i) {
-    if (!apply_setting(host, self->sets[i])) {
+    if (!settings_apply(&args, host, self->sets[i])) {
       return ARGS_USAGE;
     }
   }
@@ -359,26 +376,42 @@ static int play_with_host(const Render* self, PlaySong song, const Score* score)
     return ARGS_FAILURE;
   }
   int code = prepare(self, score, song.host);
-  code = code ? code
-              : write_uninterrupted(self, play_song(&song, (uint32_t)self->block, self->tail_s));
+  code = code ? code : write_sound(self, play_song(&song, (uint32_t)self->block, self->tail_s));
   host_free(song.host);
   return code;
 }
 
-static int list_presets(const Render* self) {
+static int list(const Render* self) {
   Host* const host = make_host(self, USUAL_RATE_HZ);
-  for (uint32_t i = 0; host && i < host_n_presets(host); ++i) {
+  if (host && self->lists_controls) {
+    settings_list(host);
+  }
+  for (uint32_t i = 0; host && self->lists_presets && i < host_n_presets(host); ++i) {
     puts(host_preset_label(host, i));
   }
   host_free(host);
   return host ? ARGS_OK : ARGS_FAILURE;
 }
 
+/* What is no MIDI file was perhaps not meant as one. */
+static const char* hint_at_ending(const char* path, const char* error) {
+  if (!strstr(error, "found no MThd")) {
+    return "";
+  }
+  static const char* const songs[] = {".mid", ".midi", ".smf", ".kar", ".rmi"};
+  for (size_t i = 0; i < sizeof(songs) / sizeof(songs[0]); ++i) {
+    if (has_ending(path, songs[i])) {
+      return "";
+    }
+  }
+  return "; a score's name ends in .score, a scene's in .scene";
+}
+
 static int render_song(const Render* self) {
   char error[ERROR_SIZE] = "";
   Smf* const smf = smf_new(self->in, error, sizeof(error));
   if (!smf) {
-    return args_fail(&self->args, ARGS_FAILURE, "%s", error);
+    return args_fail(&self->args, ARGS_FAILURE, "%s%s", error, hint_at_ending(self->in, error));
   }
   for (unsigned i = 0; !self->is_quiet && i < SMF_N_NOTES; ++i) {
     if (*smf->note[i]) {
@@ -503,11 +536,11 @@ static int play_scene(const Render* self, Scene* scene, double rate_hz) {
   if (!scenery.player) {
     return args_fail(&self->args, ARGS_FAILURE, "%s: out of memory", self->out);
   }
-  code = write_uninterrupted(self, (PlaySource){.self = &scenery,
-                                                .run = run_scene,
-                                                .rate_hz = rate_hz,
-                                                .block = SCENE_BLOCK,
-                                                .n_frames = scene_player_length(scenery.player)});
+  code = write_sound(self, (PlaySource){.self = &scenery,
+                                        .run = run_scene,
+                                        .rate_hz = rate_hz,
+                                        .block = SCENE_BLOCK,
+                                        .n_frames = scene_player_length(scenery.player)});
   scene_player_free(scenery.player);
   return code;
 }
@@ -532,7 +565,7 @@ static int render(Render* self) {
   if (!parse(self)) {
     return ARGS_USAGE;
   }
-  return self->lists_presets ? list_presets(self) : kinds[self->kind](self);
+  return lists(self) ? list(self) : kinds[self->kind](self);
 }
 
 int render_main(int argc, char** argv) {

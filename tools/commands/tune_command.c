@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
+#include <strings.h>
 
 const char tune_help[] =
     "usage: hooke tune --freq HZ --tau S --masses N --rate HZ [OPTION]...\n"
@@ -59,11 +59,11 @@ typedef struct {
 } Command;
 
 static bool take_tau(Command* self, const char* value) {
-  if (!strcmp(value, "inf")) {
+  if (!strcasecmp(value, "inf")) {
     self->target.tone.tau_s = HUGE_VAL;
     return true;
   }
-  return args_number(&self->args, "--tau", value, 1e-9, 1e9, &self->target.tone.tau_s);
+  return args_number_or(&self->args, "--tau", value, 1e-9, 1e9, "inf", &self->target.tone.tau_s);
 }
 
 static bool take_operand(Command* self) {
@@ -221,13 +221,6 @@ static void print_csv(const Command* self, StringCoefs coefs) {
   }
 }
 
-static int finish(const Command* self, int code) {
-  if (fflush(stdout) || ferror(stdout)) {
-    return args_fail(&self->args, ARGS_FAILURE, "could not write all of the answer");
-  }
-  return code;
-}
-
 static int tune_string(const Command* self) {
   StringCoefs coefs;
   if (!is_below_half(self, self->target.rate_hz)) {
@@ -238,14 +231,14 @@ static int tune_string(const Command* self) {
     return args_fail(&self->args, ARGS_FAILURE, "could not tune: %s", status_text(status));
   }
   (self->is_csv ? print_csv : print_table)(self, coefs);
-  return finish(self, is_stable(self, coefs) ? ARGS_OK : ARGS_UNSTABLE);
+  return is_stable(self, coefs) ? ARGS_OK : ARGS_UNSTABLE;
 }
 
 static int print_retuning(const Command* self, Retuning retuning) {
   printf(self->is_csv ? "stiffness_factor,damping_factor\n%.17g,%.17g\n"
                       : "stiffness_factor %.17g\ndamping_factor %.17g\n",
          retuning.stiffness_factor, retuning.damping_factor);
-  return finish(self, ARGS_OK);
+  return ARGS_OK;
 }
 
 static int retune(const Command* self, const Scene* scene, double rate_hz) {

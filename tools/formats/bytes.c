@@ -64,9 +64,16 @@ bool bytes_read(Bytes* bytes, const char* path, size_t max_size, char* error, si
     (void)snprintf(error, error_size, "%s: found more than %zu MiB, expected at most that", path,
                    max_size / MIB);
   } else if (reason) {
-    (void)snprintf(error, error_size, "%s: %s", path, strerror(reason));
+    (void)snprintf(error, error_size, "%s: %s", path,
+                   reason == ENOMEM ? "out of memory" : strerror(reason));
   }
   return !reason;
+}
+
+bool bytes_are_free(size_t size) {
+  void* const memory = malloc(size);
+  free(memory);
+  return memory;
 }
 
 void bytes_clear(Bytes* bytes) {

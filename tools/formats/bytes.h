@@ -33,6 +33,9 @@ bool bytes_append(Bytes* bytes, const void* data, size_t size);
 */
 bool bytes_read(Bytes* bytes, const char* path, size_t max_size, char* error, size_t error_size);
 
+/** @return Whether there are so many bytes of memory: for libraries that take it for granted. */
+bool bytes_are_free(size_t size);
+
 /** Free the memory and leave an empty array. */
 void bytes_clear(Bytes* bytes);
 

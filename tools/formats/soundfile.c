@@ -2,8 +2,10 @@
 
 #include "tools/formats/soundfile.h"
 
+#include "tools/formats/bytes.h"
+#include "tools/formats/outfile.h"
+
 #include <errno.h>
-#include <fcntl.h>
 #include <sndfile.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,12 +14,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+enum { ENCODER_SIZE = 8 << 20 }; /* Of memory that an encoder may take [bytes] */
+
 static const uint64_t MAX_WAV_BYTES = UINT32_MAX - 4096;
 
 struct SoundFile {
   SNDFILE* sound;
-  char* path;
-  char* part; /* The temporary name */
+  Outfile file;
+  int reason; /* Why something could not be written, as errno has it; 0: all could */
   uint64_t bytes_left;
   unsigned bytes_per_frame;
 };
@@ -33,6 +37,7 @@ static const Kind kinds[] = {{".wav", SF_FORMAT_WAV, 32, 32},
                              {".flac", SF_FORMAT_FLAC, 24, 24},
                              {".ogg", SF_FORMAT_OGG | SF_FORMAT_VORBIS, 0, 0}};
 
+/* A pipe or a device needs no ending: it gets a WAV file. */
 static const Kind* find_kind(const char* path) {
   const char* const slash = strrchr(path, '/');
   const char* const name = slash ? slash + 1 : path;
@@ -42,7 +47,12 @@ static const Kind* find_kind(const char* path) {
       return &kinds[i];
     }
   }
-  return NULL;
+  return outfile_is_stream(path) ? &kinds[0] : NULL;
+}
+
+static bool is_directory(const char* path) {
+  struct stat status;
+  return !stat(path, &status) && S_ISDIR(status.st_mode);
 }
 
 static int kind_format(const Kind* kind, unsigned bits) {
@@ -60,6 +70,9 @@ static int kind_format(const Kind* kind, unsigned bits) {
 
 const char* soundfile_refuse(const char* path, unsigned bits) {
   const Kind* const kind = find_kind(path);
+  if (is_directory(path)) {
+    return "found a directory, expected a file that ends in .wav, .flac or .ogg";
+  }
   if (!kind) {
     return "found another ending, expected .wav, .flac or .ogg";
   }
@@ -73,15 +86,6 @@ const char* soundfile_refuse(const char* path, unsigned bits) {
   return NULL;
 }
 
-static char* part_name(const char* path) {
-  const size_t size = strlen(path) + 32;
-  char* const part = malloc(size);
-  if (part) {
-    (void)snprintf(part, size, "%s.%ld.part", path, (long)getpid());
-  }
-  return part;
-}
-
 /* The PEAK chunk bears the time of day: without it the same sound is the same file. */
 static void configure(SNDFILE* sound, const Kind* kind) {
   double quality = 0.8;
@@ -92,25 +96,49 @@ static void configure(SNDFILE* sound, const Kind* kind) {
   }
 }
 
-static bool is_directory(const char* path) {
+/* What libsndfile writes with: it tells nobody why a file cannot be written. */
+
+static sf_count_t on_length(void* user) {
   struct stat status;
-  return !stat(path, &status) && S_ISDIR(status.st_mode);
+  return fstat(((const SoundFile*)user)->file.fd, &status) ? -1 : (sf_count_t)status.st_size;
 }
 
-/* Open the temporary file, which must be a new one. */
-static bool open_part(SoundFile* file, int rate_hz, unsigned bits, char* error, size_t error_size) {
-  const Kind* const kind = find_kind(file->path);
-  const bool is_place = !is_directory(file->path);
-  const int fd = is_place ? open(file->part, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
-  if (fd < 0) {
-    (void)snprintf(error, error_size, "%s: %s", file->path, strerror(is_place ? errno : EISDIR));
+static sf_count_t on_seek(sf_count_t offset, int from, void* user) {
+  return (sf_count_t)lseek(((const SoundFile*)user)->file.fd, (off_t)offset, from);
+}
+
+static sf_count_t on_read(void* bytes, sf_count_t size, void* user) {
+  return (sf_count_t)read(((const SoundFile*)user)->file.fd, bytes, (size_t)size);
+}
+
+static sf_count_t on_write(const void* bytes, sf_count_t size, void* user) {
+  SoundFile* const file = (SoundFile*)user;
+  sf_count_t done = 0;
+  while (done < size && !file->reason) {
+    const ssize_t n = write(file->file.fd, (const char*)bytes + done, (size_t)(size - done));
+    done += n > 0 ? n : 0;
+    file->reason = n > 0 || errno == EINTR ? 0 : errno;
+  }
+  return done;
+}
+
+static sf_count_t on_tell(void* user) {
+  return on_seek(0, SEEK_CUR, user);
+}
+
+static bool open_sound(
+    SoundFile* file, const char* path, int rate_hz, unsigned bits, char* error, size_t size) {
+  SF_VIRTUAL_IO io = {on_length, on_seek, on_read, on_write, on_tell};
+  const Kind* const kind = find_kind(path);
+  SF_INFO info = {.samplerate = rate_hz, .channels = 2, .format = kind_format(kind, bits)};
+  if (kind->format != SF_FORMAT_WAV && !bytes_are_free(ENCODER_SIZE)) {
+    (void)snprintf(error, size, "%s: out of memory", path);
     return false;
   }
-  SF_INFO info = {.samplerate = rate_hz, .channels = 2, .format = kind_format(kind, bits)};
-  file->sound = sf_open_fd(fd, SFM_WRITE, &info, SF_TRUE);
+  file->sound = sf_open_virtual(&io, SFM_WRITE, &info, file);
   if (!file->sound) {
-    (void)snprintf(error, error_size, "%s: %s at %d Hz", file->path, sf_strerror(NULL), rate_hz);
-    (void)unlink(file->part);
+    (void)snprintf(error, size, "%s: %s at %d Hz", path,
+                   file->reason ? strerror(file->reason) : sf_strerror(NULL), rate_hz);
     return false;
   }
   configure(file->sound, kind);
@@ -127,51 +155,60 @@ soundfile_new(const char* path, int rate_hz, unsigned bits, char* error, size_t 
     return NULL;
   }
   SoundFile* const file = calloc(1, sizeof(SoundFile));
-  if (file) {
-    file->path = strdup(path);
-    file->part = part_name(path);
-  }
-  if (!file || !file->path || !file->part) {
+  if (!file) {
     (void)snprintf(error, error_size, "%s: out of memory", path);
-  } else if (open_part(file, rate_hz, bits, error, error_size)) {
-    return file;
+    return NULL;
   }
-  soundfile_free(file);
-  return NULL;
+  if (!outfile_open(&file->file, path, error, error_size)) {
+    free(file);
+    return NULL;
+  }
+  if (!open_sound(file, path, rate_hz, bits, error, error_size)) {
+    soundfile_free(file);
+    return NULL;
+  }
+  return file;
+}
+
+bool soundfile_clips(const char* path, unsigned bits) {
+  const Kind* const kind = find_kind(path);
+  bits = bits || !kind ? bits : kind->usual_bits;
+  return bits == 16 || bits == 24;
 }
 
 bool soundfile_has_room(const SoundFile* file, uint64_t n_frames) {
   return n_frames <= file->bytes_left / file->bytes_per_frame;
 }
 
+const char* soundfile_error(const SoundFile* file) {
+  return file->reason ? strerror(file->reason) : sf_strerror(file->sound);
+}
+
 bool soundfile_write(SoundFile* file, const float* frames, uint32_t n_frames) {
   if (!soundfile_has_room(file, n_frames)) {
+    file->reason = EFBIG;
     return false;
   }
   file->bytes_left -= (uint64_t)n_frames * file->bytes_per_frame;
-  return sf_writef_float(file->sound, frames, n_frames) == (sf_count_t)n_frames;
+  return sf_writef_float(file->sound, frames, n_frames) == (sf_count_t)n_frames && !file->reason;
 }
 
-bool soundfile_finish(SoundFile* file) {
+int soundfile_finish(SoundFile* file) {
   const bool is_closed = !sf_close(file->sound);
-  file->sound = NULL;
-  const bool is_done = is_closed && !rename(file->part, file->path);
-  if (!is_done) {
-    (void)unlink(file->part);
+  int reason = file->reason || is_closed ? file->reason : EIO;
+  if (reason) {
+    outfile_drop(&file->file);
+  } else {
+    reason = outfile_finish(&file->file);
   }
-  soundfile_free(file);
-  return is_done;
+  free(file);
+  return reason;
 }
 
 void soundfile_free(SoundFile* file) {
-  if (!file) {
-    return;
-  }
-  if (file->sound) {
+  if (file) {
     (void)sf_close(file->sound);
-    (void)unlink(file->part);
+    outfile_drop(&file->file);
+    free(file);
   }
-  free(file->path);
-  free(file->part);
-  free(file);
 }

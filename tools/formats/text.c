@@ -1,5 +1,7 @@
 #include "tools/formats/text.h"
 
+#include "tools/formats/escape.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -11,11 +13,6 @@ static const char BLANKS_AND_COMMENT[] = " \t\r\v\f#";
 static const char BYTE_ORDER_MARK[] = "\xef\xbb\xbf";
 
 enum { MAX_SIZE = 64 << 20, QUOTED_LETTERS = 40 };
-
-/* What has no business on a terminal. */
-static bool is_control(char letter) {
-  return (unsigned char)letter < ' ' || letter == 0x7f;
-}
 
 bool text_init(Text* text, const char* path, char* error, size_t error_size) {
   *text = (Text){.path = path, .error = error, .error_size = error_size};
@@ -99,12 +96,9 @@ const char* text_quote(const char* word, char quote[TEXT_QUOTE_SIZE]) {
   if (!word) {
     return "the end of the line";
   }
-  const size_t length = strlen(word);
-  (void)snprintf(quote, TEXT_QUOTE_SIZE, "'%.*s%s'", QUOTED_LETTERS, word,
-                 length > QUOTED_LETTERS ? "..." : "");
-  for (char* letter = quote; *letter; ++letter) {
-    *letter = is_control(*letter) ? '?' : *letter;
-  }
+  char letters[QUOTED_LETTERS + 1];
+  const char* const rest = escape_text(word, letters, sizeof(letters));
+  (void)snprintf(quote, TEXT_QUOTE_SIZE, "'%s%s'", letters, *rest ? "..." : "");
   return quote;
 }
 

@@ -73,8 +73,8 @@ bool text_end(Text* text);
     NULL is none */
 bool text_is_number(const char* word, const TextRange* range, double* number);
 
-/** Write `word` in quotes, cut where it is long and without control characters; NULL is the end of
- * a line. @return `quote` */
+/** Write `word` in quotes, cut where it is long and escaped as escape.h says; NULL is the end of a
+ * line. @return `quote` */
 const char* text_quote(const char* word, char quote[TEXT_QUOTE_SIZE]);
 
 /** Write "PATH:LINE: " and a message. @return false */

@@ -2,6 +2,9 @@
 
 #include "tools/host/host_impl.h"
 
+#include "tools/formats/escape.h"
+
+#include <errno.h>
 #include <lv2/atom/atom.h>
 #include <lv2/buf-size/buf-size.h>
 #include <lv2/parameters/parameters.h>
@@ -60,10 +63,22 @@ static void clear_uris(Host* host) {
 
 /* Features */
 
+enum { LOG_SIZE = 4096 };
+
 LV2_LOG_FUNC(3, 0)
 static int on_vprintf(LV2_Log_Handle handle, LV2_URID type, const char* format, va_list args) {
   (void)type;
-  return ((const Host*)handle)->is_silent ? 0 : vfprintf(stderr, format, args);
+  char message[LOG_SIZE];
+  if (((const Host*)handle)->is_silent) {
+    return 0;
+  }
+  (void)vsnprintf(message, sizeof(message), format, args);
+  const size_t length = strlen(message);
+  const bool is_line = length > 0 && message[length - 1] == '\n';
+  message[length - is_line] = '\0';
+  escape_print(stderr, message);
+  (void)fputs(is_line ? "\n" : "", stderr);
+  return (int)length;
 }
 
 LV2_LOG_FUNC(3, 4)
@@ -134,8 +149,10 @@ static bool offers(const Host* host, const char* uri) {
 
 /* Life cycle */
 
+enum { WORLD_SIZE = 4 << 20 }; /* Of memory that lilv may take [bytes] */
+
 static bool make_world(Host* host, const char* lv2_path) {
-  host->world = lilv_world_new();
+  host->world = bytes_are_free(WORLD_SIZE) ? lilv_world_new() : NULL;
   if (!host->world) {
     return host_fail(host, "out of memory");
   }
@@ -162,7 +179,8 @@ static bool find_plugin(Host* host, const char* plugin_uri, const HostConfig* co
   const char* const colon = strchr(plugin_uri, ':');
   LilvNode* const uri = colon ? lilv_new_uri(host->world, plugin_uri) : NULL;
   if (!uri) {
-    return host_fail(host, "plugin '%s': found no URI, expected one", plugin_uri);
+    return host_fail(host, "plugin '%s': found no URI, expected one, as urn:hooke:guitar",
+                     plugin_uri);
   }
   if (config->bundle) {
     load_bundle(host, config->bundle);
@@ -196,9 +214,11 @@ static bool check_required(Host* host) {
 }
 
 static bool instantiate(Host* host, double rate_hz) {
+  errno = 0;
   host->instance = lilv_plugin_instantiate(host->plugin, rate_hz, host->offered);
   if (!host->instance) {
-    return host_fail(host, "plugin does not instantiate at %g Hz", rate_hz);
+    return host_fail(host, "plugin does not instantiate at %g Hz%s", rate_hz,
+                     errno == ENOMEM ? ": out of memory" : "");
   }
   host->worker.handle = lilv_instance_get_handle(host->instance);
   host->worker.interface = (const LV2_Worker_Interface*)lilv_instance_get_extension_data(

@@ -36,7 +36,15 @@ typedef struct {
   float max;       /**< NAN if not said */
   float initial;   /**< The default; if not said, what is nearest 0 in the range */
   bool is_integer; /**< lv2:integer, lv2:enumeration or lv2:toggled */
+  bool is_choice;  /**< lv2:enumeration */
+  bool is_toggle;  /**< lv2:toggled */
 } HostRange;
+
+/** A value that has a name: a scale point. */
+typedef struct {
+  char* label; /**< The host's */
+  float value;
+} HostChoice;
 
 /* Life cycle */
 
@@ -82,6 +90,15 @@ float host_get(const Host* host, const char* symbol);
 
 /** @return false, and `range` untouched, if `symbol` is not a control input. */
 bool host_range(const Host* host, const char* symbol, HostRange* range);
+
+/** @return The symbol of the i-th port; NULL if there are no so many. */
+const char* host_symbol(const Host* host, uint32_t i);
+
+/** @return What a control's numbers count, as "Hz"; "" if that is not said. */
+const char* host_unit(const Host* host, const char* symbol);
+
+/** @return The values of a control that have names, the least first, and how many they are. */
+const HostChoice* host_choices(const Host* host, const char* symbol, uint32_t* n_choices);
 
 /** Set the port designated lv2:freeWheeling. @return false if there is none. */
 bool host_set_freewheel(Host* host, bool is_freewheeling);
@@ -130,6 +147,10 @@ const char* host_preset_uri(Host* host, uint32_t k);
    @return false if there is none; host_error() says so.
 */
 bool host_preset(Host* host, const char* name);
+
+/** @return Whose preset of that name it is, if not this plugin's: the URI of another one, good
+ * until the next call; or NULL. */
+const char* host_preset_owner(Host* host, const char* name);
 
 /**
    Put a state back between runs: port values and what the plugin keeps.

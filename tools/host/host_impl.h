@@ -26,9 +26,12 @@ typedef enum {
 typedef struct {
   HostPortType type;
   bool is_input;
-  bool takes_midi;   /**< An atom port for midi:MidiEvent */
-  char* symbol;      /**< From malloc */
-  HostRange range;   /**< Of a control port */
+  bool takes_midi;     /**< An atom port for midi:MidiEvent */
+  char* symbol;        /**< From malloc */
+  HostRange range;     /**< Of a control port */
+  char* unit;          /**< Of a control port, from malloc; NULL: none */
+  HostChoice* choices; /**< Of a control port, labels from malloc */
+  uint32_t n_choices;
   float value;       /**< Of a control port: what the plugin is connected to */
   float* frames;     /**< Of an audio or CV port: max_block + HOST_GUARD_FRAMES */
   LV2_Atom* atom;    /**< Of an atom port */
@@ -95,6 +98,12 @@ __attribute__((format(printf, 2, 3))) bool host_fail(Host* host, const char* for
 
 /** Read the plugin's ports and allocate for them. @return false when memory is out. */
 bool host_make_ports(Host* host);
+
+/** Read the unit and the choices of a control port. @return false when memory is out. */
+bool host_read_choices(Host* host, HostPort* self, const LilvPort* port);
+
+/** Free them. */
+void host_clear_choices(HostPort* self);
 
 /** @return A port by symbol if it is of that type, or NULL. */
 HostPort* host_find_port(const Host* host, const char* symbol, HostPortType type);

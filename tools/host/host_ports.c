@@ -50,10 +50,12 @@ static HostRange port_range(Host* host, const LilvPort* port) {
   LilvNode* min = NULL;
   LilvNode* max = NULL;
   lilv_port_get_range(host->plugin, port, &initial, &min, &max);
-  HostRange range = {node_value(min), node_value(max), node_value(initial), false};
-  range.is_integer = ask(host, port, LV2_CORE__integer, lilv_port_has_property) ||
-                     ask(host, port, LV2_CORE__enumeration, lilv_port_has_property) ||
-                     ask(host, port, LV2_CORE__toggled, lilv_port_has_property);
+  HostRange range = {
+      .min = node_value(min), .max = node_value(max), .initial = node_value(initial)};
+  range.is_choice = ask(host, port, LV2_CORE__enumeration, lilv_port_has_property);
+  range.is_toggle = ask(host, port, LV2_CORE__toggled, lilv_port_has_property);
+  range.is_integer = range.is_choice || range.is_toggle ||
+                     ask(host, port, LV2_CORE__integer, lilv_port_has_property);
   if (!isfinite(range.initial)) {
     range.initial = fmaxf(fminf(0.0F, range.max), range.min);
   }
@@ -75,6 +77,9 @@ static bool init_port(Host* host, HostPort* self, const LilvPort* port) {
   if (self->type == HOST_PORT_CONTROL) {
     self->range = port_range(host, port);
     self->value = self->range.initial;
+    if (!host_read_choices(host, self, port)) {
+      return false;
+    }
   }
   self->takes_midi = self->type == HOST_PORT_ATOM &&
                      ask(host, port, LV2_MIDI__MidiEvent, lilv_port_supports_event);
@@ -119,6 +124,7 @@ bool host_resize_port(HostPort* port, uint32_t capacity) {
 
 void host_clear_ports(Host* host) {
   for (uint32_t i = 0; i < host->n_ports; ++i) {
+    host_clear_choices(&host->ports[i]);
     free(host->ports[i].symbol);
     free(host->ports[i].frames);
     free(host->ports[i].atom);
@@ -161,6 +167,10 @@ bool host_range(const Host* host, const char* symbol, HostRange* range) {
   }
   *range = port->range;
   return true;
+}
+
+const char* host_symbol(const Host* host, uint32_t i) {
+  return i < host->n_ports ? host->ports[i].symbol : NULL;
 }
 
 bool host_set_freewheel(Host* host, bool is_freewheeling) {

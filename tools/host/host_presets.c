@@ -31,10 +31,15 @@ static char* read_label(Host* host, const LilvNode* preset) {
   return copy;
 }
 
-static void read_presets(Host* host) {
+static LilvNodes* presets_of(Host* host, const LilvPlugin* plugin) {
   LilvNode* const type = lilv_new_uri(host->world, LV2_PRESETS__Preset);
-  LilvNodes* const found = lilv_plugin_get_related(host->plugin, type);
+  LilvNodes* const found = lilv_plugin_get_related(plugin, type);
   lilv_node_free(type);
+  return found;
+}
+
+static void read_presets(Host* host) {
+  LilvNodes* const found = presets_of(host, host->plugin);
   host->has_presets = true;
   host->n_presets = 0;
   host->presets = calloc(lilv_nodes_size(found) + 1, sizeof(HostPreset));
@@ -137,6 +142,31 @@ bool host_preset(Host* host, const char* name) {
   host_restore(host, state, true);
   lilv_state_free(state);
   return true;
+}
+
+static bool has_preset(Host* host, const LilvPlugin* plugin, const char* name) {
+  LilvNodes* const found = presets_of(host, plugin);
+  bool has_it = false;
+  LILV_FOREACH(nodes, i, found) {
+    const LilvNode* const node = lilv_nodes_get(found, i);
+    char* const label = has_it ? NULL : read_label(host, node);
+    has_it =
+        has_it || !strcmp(lilv_node_as_string(node), name) || (label && !strcasecmp(label, name));
+    free(label);
+  }
+  lilv_nodes_free(found);
+  return has_it;
+}
+
+const char* host_preset_owner(Host* host, const char* name) {
+  const LilvPlugins* const plugins = lilv_world_get_all_plugins(host->world);
+  LILV_FOREACH(plugins, i, plugins) {
+    const LilvPlugin* const plugin = lilv_plugins_get(plugins, i);
+    if (plugin != host->plugin && has_preset(host, plugin, name)) {
+      return lilv_node_as_uri(lilv_plugin_get_uri(plugin));
+    }
+  }
+  return NULL;
 }
 
 void host_clear_presets(Host* host) {

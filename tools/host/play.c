@@ -4,15 +4,14 @@
 
 #include <lv2/midi/midi.h>
 #include <math.h>
-#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
-static const float SILENCE = 1e-5F; /* −100 dBFS */
+static const float SILENCE = 1e-4F; /* −80 dB, of the loudest that there was */
 static const double SILENCE_S = 0.25;
-static const double MAX_TAIL_S = 10.0;
+static const double MAX_TAIL_S = 60.0;
 
 /* Always false. */
 __attribute__((format(printf, 2, 3))) static bool
@@ -34,12 +33,6 @@ static double now_s(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static bool is_interrupted(void) {
-  sigset_t pending;
-  return !sigpending(&pending) &&
-         (sigismember(&pending, SIGINT) == 1 || sigismember(&pending, SIGTERM) == 1);
-}
-
 typedef struct {
   const PlaySource* source;
   PlayResult* result;
@@ -49,6 +42,11 @@ typedef struct {
   int shown;      /* Progress [percent]; below 0: none yet */
   bool is_done;
 } Play;
+
+/* 1 for what is above full scale, or else 0. */
+static uint64_t over(float sample) {
+  return fabsf(sample) > 1.0F;
+}
 
 /* Take the frames of a block up to the last one of all; how many there are. */
 static uint32_t take_frames(Play* self, uint32_t n) {
@@ -66,13 +64,15 @@ static uint32_t take_frames(Play* self, uint32_t n) {
     }
     const float loudest = fmaxf(fabsf(pair[0]), fabsf(pair[1]));
     self->result->peak = fmaxf(self->result->peak, loudest);
-    self->quiet = frame >= source->n_frames && loudest < SILENCE ? self->quiet + 1 : 0;
+    self->result->n_over += over(pair[0]) + over(pair[1]);
+    const bool is_quiet = loudest <= SILENCE * self->result->peak;
+    self->quiet = frame >= source->n_frames && is_quiet ? self->quiet + 1 : 0;
     self->is_done = self->quiet >= needed_quiet || frame + 1 >= self->end;
   }
   return i;
 }
 
-static bool play_block(Play* self, SoundFile* sound) {
+static bool play_block(Play* self, const PlaySink* sink) {
   const PlaySource* const source = self->source;
   PlayResult* const result = self->result;
   const uint64_t left = self->end - result->n_frames;
@@ -84,10 +84,7 @@ static bool play_block(Play* self, SoundFile* sound) {
   result->run_s += now_s() - start_s;
   const uint32_t n_taken = take_frames(self, n);
   result->n_frames += n_taken;
-  return n_taken > 0 &&
-         (soundfile_write(sound, self->frames, n_taken) ||
-          fail(result->error,
-               "sound not written: the disk is full, or a WAV file would pass 4 GiB"));
+  return n_taken > 0 && sink->write(sink->self, self->frames, n_taken, result->error);
 }
 
 static void show_progress(Play* self) {
@@ -99,7 +96,7 @@ static void show_progress(Play* self) {
   }
 }
 
-bool play(const PlaySource* source, SoundFile* sound, PlayResult* result) {
+bool play(const PlaySource* source, const PlaySink* sink, PlayResult* result) {
   Play self = {.source = source, .result = result, .shown = -1};
   *result = (PlayResult){0};
   self.end = source->n_frames + source->n_tail;
@@ -108,18 +105,36 @@ bool play(const PlaySource* source, SoundFile* sound, PlayResult* result) {
   if (!self.frames) {
     return fail(result->error, "out of memory");
   }
-  bool is_ok = soundfile_has_room(sound, source->n_frames) ||
-               fail(result->error, "found a length of %.0f s, expected a WAV file below 4 GiB",
-                    (double)source->n_frames / source->rate_hz);
+  bool is_ok = true;
   while (is_ok && !self.is_done) {
-    is_ok = is_interrupted() ? fail(result->error, "interrupted") : play_block(&self, sound);
+    is_ok = play_block(&self, sink);
     show_progress(&self);
   }
+  result->is_cut = source->ends_silent && self.quiet == 0;
   if (self.shown >= 0) {
     (void)fprintf(stderr, "\r     \r");
   }
   free(self.frames);
   return is_ok;
+}
+
+static bool
+run_louder(void* self, uint64_t at, uint32_t n, float* frames, char error[PLAY_ERROR_SIZE]) {
+  const PlayGain* const gain = (const PlayGain*)self;
+  if (!gain->source->run(gain->source->self, at, n, frames, error)) {
+    return false;
+  }
+  for (size_t i = 0; i < 2 * (size_t)n; ++i) {
+    frames[i] = (float)(gain->gain * (double)frames[i]);
+  }
+  return true;
+}
+
+PlaySource play_amplified(PlayGain* gain) {
+  PlaySource source = *gain->source;
+  source.self = gain;
+  source.run = run_louder;
+  return source;
 }
 
 static bool send_events(PlaySong* song, uint64_t at, uint32_t n) {
