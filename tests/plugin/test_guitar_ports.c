@@ -59,6 +59,7 @@ static const Pin pinned[] = {
     {"mass_count", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 3072.0f, 0.0f},
     {"headroom", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 1.0f},
     {"limiter", PIN_IN, PIN_VALUE, NULL, PIN_TOGGLED, 0.0f, 1.0f, 1.0f},
+    {"stability_used", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };

@@ -138,6 +138,7 @@ static void check_order(int plugin, const Shown shown[], uint32_t n_shown) {
   check_group(host, host_port_index(host, "sounding"), "meters");
   check_group(host, host_port_index(host, "mass_count"), "meters");
   check_group(host, host_port_index(host, "headroom"), "meters");
+  check_group(host, host_port_index(host, "stability_used"), "meters");
   host_free(host);
 }
 
