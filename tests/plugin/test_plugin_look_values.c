@@ -24,34 +24,80 @@ static bool is_one_of(const char* symbol, const char* const symbols[], size_t n)
   return is_found;
 }
 
-/* A host prints three digits behind the point for %f; what is less must be shown as %g. */
-static void check_unit(Host* host, uint32_t port) {
-  const bool has_words =
-      panel_has(host, port, LV2_CORE__toggled) || panel_has(host, port, LV2_CORE__enumeration);
-  LilvNode* const unit = panel_get(host, port, LV2_UNITS__unit);
+/* The conversion of printf() that shows the values of a port which says no unit of LV2's own. */
+static const char* conversion_of(Host* host, uint32_t port) {
   LilvNode* const minimum = panel_get(host, port, LV2_CORE__minimum);
-  print_message("%s\n", host_port_symbol(host, port));
-  assert_int_equal(unit != NULL, !has_words);
-  if (unit) {
-    LilvNode* const symbol = panel_of(host, unit, LV2_UNITS__symbol);
-    LilvNode* const render = panel_of(host, unit, LV2_UNITS__render);
-    const double least = (double)lilv_node_as_float(minimum);
-    assert_non_null(symbol);
-    assert_non_null(render);
-    const char* const percent = strchr(lilv_node_as_string(render), '%');
-    assert_true(percent && !strchr(percent + 1, '%'));
-    assert_int_equal(percent[1] == 'g', least > 0.0 && least < 0.0005);
-    assert_true(lilv_node_as_string(render)[0] != '*');
-    lilv_node_free(symbol);
-    lilv_node_free(render);
-  }
+  const double least = (double)lilv_node_as_float(minimum);
   lilv_node_free(minimum);
+  return panel_has(host, port, LV2_CORE__integer)           ? "%d"
+         : panel_has(host, port, LV2_CORE__toggled)         ? "%.0f"
+         : least > 0.0 && least < 0.0005                    ? "%g"
+         : !strcmp(host_port_symbol(host, port), "damping") ? "%.2f 1/s"
+                                                            : "%.3f";
+}
+
+/* A host may print what it is told to, and %f is six decimals.  What it shows beside a number has
+ * to be a unit: no letter of a formula, nor once more what is counted. */
+static void check_unit(Host* host, uint32_t port) {
+  static const char* const of_lv2[] = {"dB", "Hz", "s", "ms"};
+  LilvNode* const unit = panel_get(host, port, LV2_UNITS__unit);
+  print_message("%s\n", host_port_symbol(host, port));
+  assert_non_null(unit);
+  LilvNode* const symbol = panel_of(host, unit, LV2_UNITS__symbol);
+  LilvNode* const render = panel_of(host, unit, LV2_UNITS__render);
+  assert_true(lilv_node_is_string(symbol) && lilv_node_is_string(render));
+  if (!is_one_of(lilv_node_as_string(symbol), of_lv2, sizeof(of_lv2) / sizeof(of_lv2[0]))) {
+    const char* const conversion = conversion_of(host, port);
+    assert_string_equal(lilv_node_as_string(render), conversion);
+    assert_string_equal(lilv_node_as_string(symbol), strstr(conversion, " 1/s") ? "1/s" : "");
+  }
+  lilv_node_free(render);
+  lilv_node_free(symbol);
   lilv_node_free(unit);
 }
 
-static void what_has_no_words_has_a_unit(void** state) {
+static void numbers_are_shown_as_one_reads_them(void** state) {
   (void)state;
   panel_check_all(check_unit);
+}
+
+static void check_unit_of(const char* symbol, const char* unit_uri) {
+  for (int i = 0; i < N_PLUGINS; ++i) {
+    Host* const host = plugins_open(i);
+    LilvNode* const unit = panel_get(host, host_port_index(host, symbol), LV2_UNITS__unit);
+    assert_string_equal(lilv_node_as_uri(unit), unit_uri);
+    lilv_node_free(unit);
+    host_free(host);
+  }
+}
+
+static void level_is_in_decibels_and_tuning_in_hertz(void** state) {
+  (void)state;
+  check_unit_of("level", LV2_UNITS__db);
+  check_unit_of("tuning", LV2_UNITS__hz);
+  check_unit_of("release", LV2_UNITS__s);
+}
+
+static void check_number(Host* host, uint32_t port, const char* predicate) {
+  LilvNode* const number = panel_get(host, port, predicate);
+  const bool is_whole =
+      panel_has(host, port, LV2_CORE__integer) || panel_has(host, port, LV2_CORE__toggled);
+  print_message("%s <%s>\n", host_port_symbol(host, port), predicate);
+  assert_int_equal(lilv_node_is_int(number), is_whole);
+  assert_int_equal(lilv_node_is_float(number), !is_whole);
+  lilv_node_free(number);
+}
+
+/* A switch has 0 and 1 too: of false and true, lilv makes no number. */
+static void check_numbers(Host* host, uint32_t port) {
+  check_number(host, port, LV2_CORE__default);
+  check_number(host, port, LV2_CORE__minimum);
+  check_number(host, port, LV2_CORE__maximum);
+}
+
+static void whole_numbers_are_whole_and_others_have_a_point(void** state) {
+  (void)state;
+  panel_check_all(check_numbers);
 }
 
 /* What is above nought and may be many times as much is logarithmic, but for places. */
@@ -168,7 +214,9 @@ static void no_controller_is_applied_twice(void** state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_has_no_words_has_a_unit),
+      cmocka_unit_test(numbers_are_shown_as_one_reads_them),
+      cmocka_unit_test(level_is_in_decibels_and_tuning_in_hertz),
+      cmocka_unit_test(whole_numbers_are_whole_and_others_have_a_point),
       cmocka_unit_test(what_is_wide_is_logarithmic),
       cmocka_unit_test(choices_have_words_and_nothing_else),
       cmocka_unit_test(presets_are_on_the_steps_of_knobs),
