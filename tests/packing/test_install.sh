@@ -28,8 +28,8 @@ files_below "$stage" >found
 { installed "${bin#/}" "${lv2#/}" "${man#/}" && echo "${lv2#/}/other.lv2/manifest.ttl"; } | LC_ALL=C sort >wanted
 cmp -s found wanted || fail "installed: $(diff wanted found)"
 
-for file in "$bundle"/*; do
-    cmp -s "$file" "$stage$lv2/hooke.lv2/${file##*/}" || fail "${file##*/} is not what was built"
+for file in $(files_below "$bundle"); do
+    cmp -s "$bundle/$file" "$stage$lv2/hooke.lv2/$file" || fail "$file is not what was built"
 done
 cmp -s "$HOOKE_BIN" "$stage$bin/hooke" || fail 'the program is not what was built'
 cmp -s "$HOOKE_SOURCE/doc/hooke.1" "$stage$man/man1/hooke.1" || fail 'the manual page is another'
