@@ -36,6 +36,10 @@ out = 'build'
 
 default_prefix = '/usr/local'
 
+# What was built stays so for another Python, as that of sudo may be: its version is in this name by default.
+Context.DBFILE = '.wafpickle'
+Build.PROTOCOL = 4
+
 # Configure when needed, and again with the same options when this file has changed.
 Configure.autoconfig = 'clobber'
 
