@@ -181,12 +181,24 @@ static void controls_are_in_groups_and_in_order(void** state) {
   check_order(1, of_guitar, sizeof(of_guitar) / sizeof(of_guitar[0]));
 }
 
+/* A meter that is full and red has to be bad news. */
+static void what_is_used_is_shown_and_not_what_is_left(void** state) {
+  (void)state;
+  for (int plugin = 0; plugin < N_PLUGINS; ++plugin) {
+    Host* const host = plugins_open(plugin);
+    assert_true(panel_shows(host, host_port_index(host, "stability_used")));
+    assert_false(panel_shows(host, host_port_index(host, "headroom")));
+    host_free(host);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(names_are_titles_and_short_ones_short),
       cmocka_unit_test(each_says_what_it_does_and_where_it_belongs),
       cmocka_unit_test(what_a_panel_says_is_said_in_plain_words),
       cmocka_unit_test(controls_are_in_groups_and_in_order),
+      cmocka_unit_test(what_is_used_is_shown_and_not_what_is_left),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

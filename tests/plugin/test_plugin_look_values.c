@@ -24,13 +24,15 @@ static bool is_one_of(const char* symbol, const char* const symbols[], size_t n)
   return is_found;
 }
 
-/* The conversion of printf() that shows the values of a port which says no unit of LV2's own. */
+/* The conversion of printf() that shows the values of a port which says no unit of LV2's own. All
+ * are numbers with a point to a host, which prints garbage for %d. */
 static const char* conversion_of(Host* host, uint32_t port) {
   LilvNode* const minimum = panel_get(host, port, LV2_CORE__minimum);
   const double least = (double)lilv_node_as_float(minimum);
+  const bool is_whole =
+      panel_has(host, port, LV2_CORE__integer) || panel_has(host, port, LV2_CORE__toggled);
   lilv_node_free(minimum);
-  return panel_has(host, port, LV2_CORE__integer)           ? "%d"
-         : panel_has(host, port, LV2_CORE__toggled)         ? "%.0f"
+  return is_whole                                           ? "%.0f"
          : least > 0.0 && least < 0.0005                    ? "%g"
          : !strcmp(host_port_symbol(host, port), "damping") ? "%.2f 1/s"
                                                             : "%.3f";
