@@ -6,7 +6,7 @@ Sources are found by where they lie, so that a new one needs no line here:
     core/*/*_avx2.c        the part of it for processors with AVX2 and FMA, which is chosen when it runs
     core/analysis/*.c      what needs LAPACK: a library for the program and the tests, and no part of the plugin
     plugin/*.c             the plugin, hooke.lv2/hooke.so, and a static library for the bench and the tests
-    ttl/, presets/         the plugin's descriptions and presets, beside it
+    ttl/, presets/         the plugin's descriptions and presets, beside it; ttl/modgui/, a pedal for MOD's hosts
     tools/commands/main.c  the program `hooke`; the other tools/*/*.c are a library which the tests share
     tests/*/test_*.c       a test program each; the rest of tests/support/*.c is linked into all of them
     tests/support/plant_*  a library each, built as the plugin is, with a fault that a test has to find
@@ -35,6 +35,10 @@ top = '.'
 out = 'build'
 
 default_prefix = '/usr/local'
+
+# What was built stays so for another Python, as that of sudo may be: its version is in this name by default.
+Context.DBFILE = '.wafpickle'
+Build.PROTOCOL = 4
 
 # Configure when needed, and again with the same options when this file has changed.
 Configure.autoconfig = 'clobber'
@@ -238,6 +242,8 @@ def build_bundle(bld):
                   use='hooke_core LV2 M PTHREAD', linkflags=bld.env.PLUGIN_LINKFLAGS)
     for node in bld.path.ant_glob(['ttl/*.ttl', 'presets/*.ttl']):
         bld(features='subst', is_copy=True, source=node, target='hooke.lv2/' + node.name, install_path=bundle)
+    for node in bld.path.ant_glob('ttl/modgui/*'):
+        bld(features='subst', is_copy=True, source=node, target='hooke.lv2/modgui/' + node.name, install_path=bundle + '/modgui')
     for node in bld.path.ant_glob('ttl/*.ttl.in'):
         bld(features='subst', source=node, target='hooke.lv2/' + node.name[:-len('.in')], install_path=bundle,
             LIB_EXT=library_ending(bld))

@@ -88,6 +88,7 @@ static VoiceReport report(const void* data) {
 static const InstrumentKind kind = {
     .n_ports = GUITAR_N_PORTS,
     .meters = GUITAR_PORT_SOUNDING,
+    .stability_used = GUITAR_PORT_STABILITY_USED,
     .limiter = GUITAR_PORT_LIMITER,
     .event_uri = GUITAR_EVENT_URI,
     .new = new_player,

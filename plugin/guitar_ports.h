@@ -15,7 +15,8 @@
   COMMON_STREAM_PORTS(X)                                                                           \
   X(SOUNDING, sounding, 34)                                                                        \
   X(MASS_COUNT, mass_count, 35)                                                                    \
-  X(HEADROOM, headroom, 36)
+  X(HEADROOM, headroom, 36)                                                                        \
+  X(STABILITY_USED, stability_used, 38)
 
 /** X(NAME, symbol, index, minimum, maximum, default): control inputs. */
 #define GUITAR_CONTROL_PORTS(X)                                                                    \
@@ -53,7 +54,7 @@
 #define STREAM_ENUM(name, symbol, index) GUITAR_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   GUITAR_PORT_##name = (index),
-enum { GUITAR_STREAM_PORTS(STREAM_ENUM) GUITAR_CONTROL_PORTS(CONTROL_ENUM) GUITAR_N_PORTS = 38 };
+enum { GUITAR_STREAM_PORTS(STREAM_ENUM) GUITAR_CONTROL_PORTS(CONTROL_ENUM) GUITAR_N_PORTS = 39 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

@@ -111,6 +111,7 @@ static void write_report(Instrument* self) {
   write_value(self, self->kind->meters, report.n_strings);
   write_value(self, self->kind->meters + 1, report.n_masses);
   write_value(self, self->kind->meters + 2, report.headroom);
+  write_value(self, self->kind->stability_used, 1.0 - report.headroom);
 }
 
 static void play_midi(Instrument* self, const Event* event) {

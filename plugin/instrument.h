@@ -29,7 +29,9 @@ typedef struct {
   uint32_t n_ports; /**< At most PORTS_MAX */
   uint32_t meters;  /**< Index of the first of the three ports that report: strings sounding, their
                        masses and the headroom */
-  uint32_t limiter; /**< Index of the port that turns the limiter on */
+  uint32_t
+      stability_used;    /**< Index of the port that reports what of the stability limit is used */
+  uint32_t limiter;      /**< Index of the port that turns the limiter on */
   const char* event_uri; /**< Type of the atoms that `play_event` takes; NULL: there are none */
 
   /** Make a player at rest; NULL if there is no memory or the rate is no rate. */

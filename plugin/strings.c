@@ -50,6 +50,7 @@ static const TunerNames tuner = {
 static const InstrumentKind kind = {
     .n_ports = STRINGS_N_PORTS,
     .meters = STRINGS_PORT_SOUNDING,
+    .stability_used = STRINGS_PORT_STABILITY_USED,
     .limiter = STRINGS_PORT_LIMITER,
     .new = new_harp,
     .free = free_harp,

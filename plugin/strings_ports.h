@@ -14,7 +14,8 @@
   COMMON_STREAM_PORTS(X)                                                                           \
   X(SOUNDING, sounding, 18)                                                                        \
   X(MASS_COUNT, mass_count, 19)                                                                    \
-  X(HEADROOM, headroom, 20)
+  X(HEADROOM, headroom, 20)                                                                        \
+  X(STABILITY_USED, stability_used, 27)
 
 /** X(NAME, symbol, index, minimum, maximum, default): control inputs. */
 #define STRINGS_CONTROL_PORTS(X)                                                                   \
@@ -41,7 +42,7 @@
 #define STREAM_ENUM(name, symbol, index) STRINGS_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   STRINGS_PORT_##name = (index),
-enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 27 };
+enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 28 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

@@ -111,14 +111,14 @@ order() {
         fail "jalv has ended: $(cat said)"
         return
     fi
-    before=$(grep -c '^headroom = ' said)
+    before=$(grep -c '^stability_used = ' said)
     printf '%s\n' "$@" controls monitors >orders
     wait_until has_answered "$before" || fail "jalv does not obey '$*': $(cat said)"
     tac said | awk '/^> level = / { print; exit } /^(> )?[a-z0-9_]+ = / { print }' | sed 's/^> //' >values
 }
 
 has_answered() {
-    test "$(grep -c '^headroom = ' said)" -gt "$1"
+    test "$(grep -c '^stability_used = ' said)" -gt "$1"
 }
 
 # play OUT [freewheel]: the song, to the host

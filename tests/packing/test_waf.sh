@@ -77,6 +77,20 @@ if test "$(id -u)" = 0 && as_nobody test -w /dev/null -a -r "$dir/moved/waf"; th
     must moved configure
     same "$(find moved ! -user 65534)" '' 'what became of root'
     (cd moved && as_nobody env HOOKE_NO_CHECK=1 ./waf configure --user) >said 2>&1 || fail "the user cannot go on: $(cat said)"
+    if test -n "${HOOKE_TEST_LONG-}"; then # what root installs it does not compile, and the user can build and install again
+        user_waf() {
+            (cd moved && as_nobody env HOOKE_NO_CHECK=1 CFLAGS="$quick" ./waf "$@") >said 2>&1 || fail "the user's waf $*: $(tail -n 25 said)"
+        }
+        user_waf configure --prefix=/usr
+        user_waf build
+        (umask 077 && must moved install --destdir="$dir/stage") || exit 1
+        ! grep -qE 'Compiling|Linking' waf.log || fail 'root compiles what the user has built'
+        same "$(find stage/usr -type d ! -perm 755 -o ! -type d ! -perm 755 ! -perm 644)" '' 'what others cannot read'
+        same "$(find moved ! -user 65534)" '' 'what became of root'
+        user_waf configure --user
+        user_waf build install
+        test -e home/.lv2/hooke.lv2/manifest.ttl || fail 'the user has not installed it'
+    fi
     mkdir moved/build/mine
     ! (cd moved && as_nobody env HOOKE_NO_CHECK=1 ./waf configure --user) >said 2>&1 || fail "what is root's is not in the way"
     same "$(wc -l <said)" 1 "lines said of what is root's"

@@ -42,12 +42,12 @@ static const Pin pinned[] = {
     {"partials", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 2.0f},
     {"release", PIN_IN, PIN_VALUE, NULL, PIN_LOGARITHMIC, 0.005f, 10.0f, 0.1f},
     {"tuning", PIN_IN, PIN_VALUE, NULL, 0, 400.0f, 480.0f, 440.0f},
-    {"string1", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER, 12.0f, 88.0f, 64.0f},
-    {"string2", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER, 12.0f, 88.0f, 59.0f},
-    {"string3", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER, 12.0f, 88.0f, 55.0f},
-    {"string4", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER, 12.0f, 88.0f, 50.0f},
-    {"string5", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER, 12.0f, 88.0f, 45.0f},
-    {"string6", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER, 12.0f, 88.0f, 40.0f},
+    {"string1", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 12.0f, 88.0f, 64.0f},
+    {"string2", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 12.0f, 88.0f, 59.0f},
+    {"string3", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 12.0f, 88.0f, 55.0f},
+    {"string4", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 12.0f, 88.0f, 50.0f},
+    {"string5", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 12.0f, 88.0f, 45.0f},
+    {"string6", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 12.0f, 88.0f, 40.0f},
     {"capo", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 12.0f, 0.0f},
     {"palm", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
     {"strum", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 100.0f, 0.0f},
@@ -59,6 +59,7 @@ static const Pin pinned[] = {
     {"mass_count", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 3072.0f, 0.0f},
     {"headroom", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 1.0f},
     {"limiter", PIN_IN, PIN_VALUE, NULL, PIN_TOGGLED, 0.0f, 1.0f, 1.0f},
+    {"stability_used", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };
@@ -93,6 +94,31 @@ static void enumerations_have_their_names(void** state) {
   pins_check_names(host, GUITAR_PORT_PARTIALS, partials, 3);
   pins_check_names(host, GUITAR_PORT_MODE, modes, 2);
   pins_check_names(host, GUITAR_PORT_HARMONIC, harmonics, 4);
+  host_free(host);
+}
+
+/* The key that a note's name says, with C4 for key 60. */
+static int key_of(const char* name) {
+  static const int semitones[] = {
+      ['A'] = 9, ['B'] = 11, ['C'] = 0, ['D'] = 2, ['E'] = 4, ['F'] = 5, ['G'] = 7};
+  const bool is_sharp = name[1] == '#';
+  return semitones[(unsigned char)name[0]] + is_sharp + 12 * (name[is_sharp ? 2 : 1] - '0' + 1);
+}
+
+static void open_strings_have_the_names_of_notes(void** state) {
+  (void)state;
+  Host* const host = guitar_open(48000.0, 64);
+  for (uint32_t i = 0; i < GUITAR_PORT_STRINGS; ++i) {
+    LilvScalePoints* const points = lilv_port_get_scale_points(
+        host_plugin(host),
+        lilv_plugin_get_port_by_index(host_plugin(host), GUITAR_PORT_STRING1 + i));
+    LILV_FOREACH(scale_points, k, points) {
+      const LilvScalePoint* const point = lilv_scale_points_get(points, k);
+      const char* const name = lilv_node_as_string(lilv_scale_point_get_label(point));
+      assert_int_equal(lilv_node_as_int(lilv_scale_point_get_value(point)), key_of(name));
+    }
+    lilv_scale_points_free(points);
+  }
   host_free(host);
 }
 
@@ -170,6 +196,7 @@ int main(void) {
       cmocka_unit_test(the_turtle_says_what_is_pinned),
       cmocka_unit_test(the_turtle_says_what_the_code_says),
       cmocka_unit_test(enumerations_have_their_names),
+      cmocka_unit_test(open_strings_have_the_names_of_notes),
       cmocka_unit_test(ports_of_a_name_are_alike_in_both_plugins),
       cmocka_unit_test(what_it_names_is_described),
       cmocka_unit_test(it_is_an_instrument_that_needs_a_map_alone),

@@ -43,6 +43,9 @@ static const Shown of_guitar[] = {
     {"limiter", "level"},
 };
 
+static const char* const of_meters[] = {"sounding", "mass_count", "headroom", "stability_used"};
+static const char* const of_host[] = {"control", "notify", "enabled", "freewheel"};
+
 static bool is_small_word(const char* word) {
   return !strncmp(word, "of ", 3) || !strncmp(word, "per ", 4) || !strncmp(word, "and ", 4);
 }
@@ -87,9 +90,35 @@ static void check_comment(Host* host, uint32_t port) {
   lilv_node_free(comment);
 }
 
-static void each_says_what_it_does(void** state) {
+/* What a player would have to look up. */
+static void check_plain(Host* host, uint32_t port) {
+  static const char* const hard[] = {"1/e", "fundamental", "nharmonic", "partial k", "coefficient"};
+  LilvNode* const comment = panel_get(host, port, LILV_NS_RDFS "comment");
+  print_message("%s\n", host_port_symbol(host, port));
+  for (size_t i = 0; i < sizeof(hard) / sizeof(hard[0]); ++i) {
+    assert_null(strstr(lilv_node_as_string(comment), hard[i]));
+  }
+  lilv_node_free(comment);
+}
+
+static void what_a_panel_says_is_said_in_plain_words(void** state) {
   (void)state;
-  panel_check_all(check_comment);
+  panel_check_all(check_plain);
+}
+
+/* Not only those that a panel shows. */
+static void each_says_what_it_does_and_where_it_belongs(void** state) {
+  (void)state;
+  for (int plugin = 0; plugin < N_PLUGINS; ++plugin) {
+    Host* const host = plugins_open(plugin);
+    for (uint32_t i = 0; i < host_n_ports(host); ++i) {
+      LilvNode* const group = panel_get(host, i, LV2_PORT_GROUPS__group);
+      check_comment(host, i);
+      assert_true(lilv_node_is_uri(group));
+      lilv_node_free(group);
+    }
+    host_free(host);
+  }
 }
 
 static void check_group(Host* host, uint32_t port, const char* wanted) {
@@ -104,6 +133,12 @@ static void check_group(Host* host, uint32_t port, const char* wanted) {
   lilv_node_free(symbol);
   lilv_node_free(name);
   lilv_node_free(group);
+}
+
+static void check_groups(Host* host, const char* const symbols[], size_t n, const char* wanted) {
+  for (size_t i = 0; i < n; ++i) {
+    check_group(host, host_port_index(host, symbols[i]), wanted);
+  }
 }
 
 static int priority_of(Host* host, uint32_t port) {
@@ -135,9 +170,8 @@ static void check_order(int plugin, const Shown shown[], uint32_t n_shown) {
   }
   assert_true(before >= 0);
   assert_int_equal(n_inputs, n_shown);
-  check_group(host, host_port_index(host, "sounding"), "meters");
-  check_group(host, host_port_index(host, "mass_count"), "meters");
-  check_group(host, host_port_index(host, "headroom"), "meters");
+  check_groups(host, of_meters, sizeof(of_meters) / sizeof(of_meters[0]), "meters");
+  check_groups(host, of_host, sizeof(of_host) / sizeof(of_host[0]), "host");
   host_free(host);
 }
 
@@ -147,11 +181,24 @@ static void controls_are_in_groups_and_in_order(void** state) {
   check_order(1, of_guitar, sizeof(of_guitar) / sizeof(of_guitar[0]));
 }
 
+/* A meter that is full and red has to be bad news. */
+static void what_is_used_is_shown_and_not_what_is_left(void** state) {
+  (void)state;
+  for (int plugin = 0; plugin < N_PLUGINS; ++plugin) {
+    Host* const host = plugins_open(plugin);
+    assert_true(panel_shows(host, host_port_index(host, "stability_used")));
+    assert_false(panel_shows(host, host_port_index(host, "headroom")));
+    host_free(host);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(names_are_titles_and_short_ones_short),
-      cmocka_unit_test(each_says_what_it_does),
+      cmocka_unit_test(each_says_what_it_does_and_where_it_belongs),
+      cmocka_unit_test(what_a_panel_says_is_said_in_plain_words),
       cmocka_unit_test(controls_are_in_groups_and_in_order),
+      cmocka_unit_test(what_is_used_is_shown_and_not_what_is_left),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -136,6 +136,19 @@ a_wav_file_too_long_is_refused_at_once() {
     refuse 1 'out/x.wav: found a length of 72000 s, expected a WAV file below 4 GiB' render day.mid out/x.wav
 }
 
+# Before the song is even looked for; and the rates that are said are written.
+rates_that_a_file_cannot_have_are_refused_with_the_options() {
+    in_tens='expected at most 655350 Hz for .flac, above 65535 in tens'
+    refuse 2 "out/x.flac: found a rate of 768000 Hz, $in_tens" render --rate 768000 nosuch.mid out/x.flac
+    refuse 2 "out/x.flac: found a rate of 96001 Hz, $in_tens" render --rate 96001 nosuch.mid out/x.flac
+    refuse 2 'out/x.OGG: found a rate of 384000 Hz, expected at most 200000 Hz for .ogg' render --rate 384000 nosuch.mid out/x.OGG
+    sed 's/^rate .*/rate 384000/' "$HOOKE_SOURCE/doc/coupled.scene" >fast.scene
+    refuse 1 'out/x.ogg: found a rate of 384000 Hz, expected at most 200000 Hz' render fast.scene out/x.ogg
+    for rate in 655350:a.flac 65535:b.flac 65540:c.flac 200000:a.ogg 4000:b.ogg 768000:a.wav; do
+        render --tail 0 --rate "${rate%:*}" note.mid "out/${rate#*:}" || return
+    done
+}
+
 blemishes_are_played_with_a_line_for_each_kind() {
     printf 'a letterMThd\0\0\0\006\0\0\0\003\001\340MTrk\0\0\0\014\0\220\074\377\203\140\370\0\074\0\0\370' >odd.mid
     render --tail 0 odd.mid out/a.wav || return
@@ -269,6 +282,7 @@ for claim in \
     presets_are_listed_and_found \
     the_length_is_the_songs \
     a_wav_file_too_long_is_refused_at_once \
+    rates_that_a_file_cannot_have_are_refused_with_the_options \
     blemishes_are_played_with_a_line_for_each_kind \
     broken_songs_are_refused \
     options_may_stand_anywhere_before_two_dashes \

@@ -229,6 +229,12 @@ static bool lists(const Render* self) {
   return self->lists_presets || self->lists_controls;
 }
 
+static bool check_rate(const Render* self, double rate_hz) {
+  const char* const rates = soundfile_refuse_rate(self->out, rate_hz);
+  return !rates || args_fail(&self->args, false, "%s: found a rate of %.12g Hz, expected %s",
+                             self->out, rate_hz, rates);
+}
+
 /* An option that would do nothing is a mistake. */
 static bool check(const Render* self) {
   const Args* const args = &self->args;
@@ -255,7 +261,10 @@ static bool check(const Render* self) {
     return args_fail(args, false, "%s: found the input itself, expected another file", self->out);
   }
   const char* const refusal = soundfile_refuse(self->out, (unsigned)self->bits);
-  return !refusal || args_fail(args, false, "%s: %s", self->out, refusal);
+  if (refusal) {
+    return args_fail(args, false, "%s: %s", self->out, refusal);
+  }
+  return check_rate(self, (double)self->rate_hz);
 }
 
 static bool parse(Render* self) {
@@ -527,6 +536,9 @@ static int play_scene(const Render* self, Scene* scene, double rate_hz) {
                      "%s: found a rate of %.12g Hz, expected a whole number for a sound file; "
                      "--rate sets one",
                      self->in, rate_hz);
+  }
+  if (!check_rate(self, rate_hz)) {
+    return ARGS_FAILURE;
   }
   int code = self->is_anyway ? ARGS_OK : judge(self, scene, rate_hz);
   if (code) {

@@ -6,6 +6,7 @@
 #include "tools/formats/outfile.h"
 
 #include <errno.h>
+#include <math.h>
 #include <sndfile.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,11 +32,15 @@ typedef struct {
   int format; /* Without depth */
   unsigned usual_bits;
   unsigned max_bits;
+  double max_rate_hz; /* 0: there is no bound */
+  const char* rates;
 } Kind;
 
-static const Kind kinds[] = {{".wav", SF_FORMAT_WAV, 32, 32},
-                             {".flac", SF_FORMAT_FLAC, 24, 24},
-                             {".ogg", SF_FORMAT_OGG | SF_FORMAT_VORBIS, 0, 0}};
+static const Kind kinds[] = {
+    {".wav", SF_FORMAT_WAV, 32, 32, 0.0, NULL},
+    {".flac", SF_FORMAT_FLAC, 24, 24, 655350.0, "at most 655350 Hz for .flac, above 65535 in tens"},
+    {".ogg", SF_FORMAT_OGG | SF_FORMAT_VORBIS, 0, 0, 200000.0, "at most 200000 Hz for .ogg"},
+};
 
 /* A pipe or a device needs no ending: it gets a WAV file. */
 static const Kind* find_kind(const char* path) {
@@ -66,6 +71,17 @@ static int kind_format(const Kind* kind, unsigned bits) {
   default:
     return kind->format;
   }
+}
+
+/* FLAC has 16 bits for a rate in Hz, or in tens of them. */
+const char* soundfile_refuse_rate(const char* path, double rate_hz) {
+  const Kind* const kind = find_kind(path);
+  if (!kind || kind->max_rate_hz == 0.0) {
+    return NULL;
+  }
+  const bool is_odd =
+      kind->format == SF_FORMAT_FLAC && rate_hz > 65535.0 && fmod(rate_hz, 10.0) != 0.0;
+  return rate_hz > kind->max_rate_hz || is_odd ? kind->rates : NULL;
 }
 
 const char* soundfile_refuse(const char* path, unsigned bits) {

@@ -14,6 +14,9 @@ typedef struct SoundFile SoundFile;
 /** @return Why a file of that name and depth cannot be written, or NULL if it can. */
 const char* soundfile_refuse(const char* path, unsigned bits);
 
+/** @return The rates that such a file can have if this is none of them; NULL if it is one. */
+const char* soundfile_refuse_rate(const char* path, double rate_hz);
+
 /**
    Begin a file; its kind is by the ending of `path`, in small or capital letters, or WAV where that
    is a pipe or a device without one.
