@@ -49,11 +49,13 @@ static void keep_path(TunerStore* store, TunerFile file, const char* path) {
 }
 
 static void read_scale(TunerStore* store, const char* path, TunerFault* fault) {
+  scale_free(&store->scale);
   scale_equal(&store->scale);
   (void)(*path && tuner_file_scale(path, &store->scale, fault));
 }
 
 static void read_map(TunerStore* store, const char* path, TunerFault* fault) {
+  scale_map_free(&store->map);
   scale_map_linear(&store->map);
   (void)(*path && tuner_file_map(path, &store->map, fault));
 }
@@ -73,6 +75,8 @@ bool tuner_store_init(TunerStore* store) {
 }
 
 void tuner_store_clear(TunerStore* store) {
+  scale_free(&store->scale);
+  scale_map_free(&store->map);
   (void)pthread_mutex_destroy(&store->lock);
 }
 
