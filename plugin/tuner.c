@@ -38,7 +38,9 @@ static bool is_for_us(const Tuner* tuner, const uint8_t* body, uint32_t n_bytes)
 static void want(Tuner* tuner, TunerFile file, const Property* value) {
   TunerRequest* const request = &tuner->requests[file];
   const size_t n_bytes = strnlen((const char*)value->value, value->size);
-  if (!tuner->worker || n_bytes >= TUNER_PATH_SIZE || value->type != tuner->urids.atom_Path) {
+  const bool is_path =
+      value->type == tuner->urids.atom_Path || value->type == tuner->urids.atom_String;
+  if (!tuner->worker || n_bytes >= TUNER_PATH_SIZE || !is_path) {
     tuner->is_due[file] = true;
     return;
   }
