@@ -149,6 +149,10 @@ const double* tuner_take(Tuner* tuner) {
   return table->semitones;
 }
 
+const double* tuner_pitches(const Tuner* tuner) {
+  return tuner_store_table(&tuner->store)->semitones;
+}
+
 void tuner_hear(Tuner* tuner, LV2_URID type, const uint8_t* body, uint32_t n_bytes) {
   const TunerUrids* const urids = &tuner->urids;
   const LV2_URID class = atom_object_class(body, n_bytes);
