@@ -100,6 +100,7 @@ static const InstrumentKind kind = {
     .play_event = play_event,
     .run = run,
     .report = report,
+    .tuner = {GUITAR_URI, {GUITAR_URI "#scale", GUITAR_URI "#mapping"}},
 };
 
 static LV2_Handle instantiate(const LV2_Descriptor* descriptor,
@@ -118,4 +119,5 @@ const LV2_Descriptor guitar_descriptor = {
     .activate = instrument_activate,
     .run = instrument_run,
     .cleanup = instrument_cleanup,
+    .extension_data = instrument_extension,
 };

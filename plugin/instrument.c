@@ -42,7 +42,7 @@ typedef struct {
   /* State */
   void* player;
   Channels channels; /* What MIDI has said to it */
-  Tuner* tuner;      /* NULL: it has none */
+  Tuner* tuner;
   Controls controls;
   bool is_fresh; /* Whether nothing has been played since activation: there is nothing to glide
                     from */
@@ -135,7 +135,7 @@ static void play_block(Instrument* self, const void* control, uint32_t n_frames)
       render(self, done, frame);
       done = frame;
       (is_midi ? play_midi : play_own)(self, &event);
-    } else if (self->tuner) {
+    } else {
       tuner_hear(self->tuner, event.type, event.body, event.size);
     }
   }
@@ -152,9 +152,9 @@ static void free_instrument(Instrument* self) {
 
 /* New pitches take effect at the start of a block; which, is the worker's affair. */
 static void take_scale(Instrument* self) {
-  const double* const semitones = self->tuner ? tuner_take(self->tuner) : NULL;
+  const double* const semitones = tuner_take(self->tuner);
   if (semitones) {
-    self->kind->set_scale(self->player, semitones);
+    channels_set_scale(&self->channels, semitones);
   }
 }
 
@@ -221,8 +221,8 @@ instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* co
   limiter_init(&self->limiter, rate_hz);
   self->urids = map_urids(map, kind);
   self->player = kind->new (rate_hz);
-  self->tuner = kind->tuner ? tuner_new(map, features, kind->tuner) : NULL;
-  if (!self->player || (kind->tuner && !self->tuner)) {
+  self->tuner = tuner_new(map, features, &kind->tuner);
+  if (!self->player || !self->tuner) {
     free_instrument(self);
     return NULL;
   }
@@ -243,6 +243,7 @@ void instrument_activate(LV2_Handle handle) {
   Instrument* const self = handle;
   self->kind->reset(self->player);
   channels_reset(&self->channels);
+  channels_set_scale(&self->channels, tuner_pitches(self->tuner));
   limiter_init(&self->limiter, self->rate_hz);
   self->is_fresh = true;
 }
@@ -257,9 +258,7 @@ void instrument_run(LV2_Handle handle, uint32_t n_frames) {
   play_block(self, self->ports[PORT_CONTROL], n_frames);
   self->is_fresh = false;
   write_report(self);
-  if (self->tuner) {
-    tuner_tell(self->tuner, notify, room);
-  }
+  tuner_tell(self->tuner, notify, room);
   denormals_restore(denormals);
 }
 

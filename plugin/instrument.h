@@ -58,10 +58,7 @@ typedef struct {
   void (*run)(void* player, uint32_t n_frames, float* left, float* right);
   VoiceReport (*report)(const void* player);
 
-  const TunerNames* tuner; /**< What its tuning by files is called; NULL: it has none */
-
-  /** Tune all keys, in semitones above A4, NAN: silent; of one that has a tuner. */
-  void (*set_scale)(void* player, const double semitones[SCALE_KEYS]);
+  TunerNames tuner; /**< What its tuning by files is called */
 } InstrumentKind;
 
 /** For instantiate(): NULL if the host offers no urid:map, or `kind` makes no player.  `kind` has
@@ -76,7 +73,7 @@ void instrument_activate(LV2_Handle handle);
 void instrument_run(LV2_Handle handle, uint32_t n_frames);
 void instrument_cleanup(LV2_Handle handle);
 
-/** For one that has a tuner: its state and its work. */
+/** Its state and its work. */
 const void* instrument_extension(const char* uri);
 
 #endif

@@ -34,18 +34,9 @@ static void run(void* harp, uint32_t n_frames, float* left, float* right) {
   harp_run(harp, n_frames, left, right);
 }
 
-static void set_scale(void* harp, const double semitones[SCALE_KEYS]) {
-  harp_set_scale(harp, semitones);
-}
-
 static VoiceReport report(const void* harp) {
   return harp_report(harp);
 }
-
-static const TunerNames tuner = {
-    .plugin = STRINGS_URI,
-    .files = {STRINGS_URI "#scale", STRINGS_URI "#mapping"},
-};
 
 static const InstrumentKind kind = {
     .n_ports = STRINGS_N_PORTS,
@@ -60,8 +51,7 @@ static const InstrumentKind kind = {
     .perform = perform,
     .run = run,
     .report = report,
-    .tuner = &tuner,
-    .set_scale = set_scale,
+    .tuner = {STRINGS_URI, {STRINGS_URI "#scale", STRINGS_URI "#mapping"}},
 };
 
 static LV2_Handle instantiate(const LV2_Descriptor* descriptor,

@@ -38,7 +38,9 @@ static bool is_for_us(const Tuner* tuner, const uint8_t* body, uint32_t n_bytes)
 static void want(Tuner* tuner, TunerFile file, const Property* value) {
   TunerRequest* const request = &tuner->requests[file];
   const size_t n_bytes = strnlen((const char*)value->value, value->size);
-  if (!tuner->worker || n_bytes >= TUNER_PATH_SIZE || value->type != tuner->urids.atom_Path) {
+  const bool is_path =
+      value->type == tuner->urids.atom_Path || value->type == tuner->urids.atom_String;
+  if (!tuner->worker || n_bytes >= TUNER_PATH_SIZE || !is_path) {
     tuner->is_due[file] = true;
     return;
   }
@@ -145,6 +147,10 @@ const double* tuner_take(Tuner* tuner) {
   tuner->is_change_due = tuner->is_change_due || table->n_wishes != tuner->n_wishes;
   tuner->n_wishes = table->n_wishes;
   return table->semitones;
+}
+
+const double* tuner_pitches(const Tuner* tuner) {
+  return tuner_store_table(&tuner->store)->semitones;
 }
 
 void tuner_hear(Tuner* tuner, LV2_URID type, const uint8_t* body, uint32_t n_bytes) {

@@ -56,6 +56,9 @@ void tuner_free(Tuner* tuner);
  * they hold until the next call. */
 const double* tuner_take(Tuner* tuner);
 
+/** Those that were taken last; at first equal temperament's. */
+const double* tuner_pitches(const Tuner* tuner);
+
 /** Hear an event of the control port; what is no message about the files is ignored. */
 void tuner_hear(Tuner* tuner, LV2_URID type, const uint8_t* body, uint32_t n_bytes);
 

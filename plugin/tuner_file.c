@@ -3,79 +3,137 @@
 #include "plugin/tuner_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
+
+/* What cannot be said of files everywhere is not needed there. */
+#ifdef _WIN32
+enum { HOW_TO_OPEN = O_RDONLY | O_BINARY };
+#else
+enum { HOW_TO_OPEN = O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC };
+#endif
 
 typedef struct {
   char* bytes;
   size_t n_bytes;
 } Text;
 
-/* A pipe would keep its reader waiting, and a directory has no text. */
-static bool is_plain_file(const char* path) {
+static bool is_plain(const struct stat* status) {
+  errno = S_ISDIR(status->st_mode) ? EISDIR : EINVAL;
+  return S_ISREG(status->st_mode);
+}
+
+/* As many bytes as it says to have: a file of the kernel says that it has none, and may keep who
+ * reads it waiting for ever. */
+static bool read_all(int file, off_t size, Text* text) {
+  text->bytes = malloc((size_t)size + 1);
+  bool is_good = text->bytes;
+  ssize_t n = 1;
+  while (is_good && n > 0 && text->n_bytes < (size_t)size) {
+    n = read(file, text->bytes + text->n_bytes, (size_t)size - text->n_bytes);
+    is_good = n >= 0;
+    text->n_bytes += n > 0 ? (size_t)n : 0;
+  }
+  return is_good;
+}
+
+static bool read_open(int file, Text* text) {
   struct stat status;
-  if (stat(path, &status)) {
+  if (fstat(file, &status) || !is_plain(&status)) {
     return false;
   }
-  errno = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
-  return S_ISREG(status.st_mode);
+  errno = EFBIG;
+  return status.st_size <= SCALE_MAX_BYTES && read_all(file, status.st_size, text);
 }
 
-/* One byte more than there may be, so that too long a text is seen to be. */
-static bool read_stream(FILE* stream, Text* text) {
-  text->bytes = malloc(SCALE_MAX_BYTES + 1);
-  if (!text->bytes) {
-    return false;
-  }
-  text->n_bytes = fread(text->bytes, 1, SCALE_MAX_BYTES + 1, stream);
-  return !ferror(stream);
-}
-
-/* errno says why it failed. */
+/* A device may act when it is opened, so it is not.  errno says why it failed. */
 static bool read_text(const char* path, Text* text) {
-  FILE* const stream = is_plain_file(path) ? fopen(path, "rb") : NULL;
-  if (!stream) {
+  struct stat status;
+  const int file = !stat(path, &status) && is_plain(&status) ? open(path, HOW_TO_OPEN) : -1;
+  if (file < 0) {
     return false;
   }
-  const bool is_read = read_stream(stream, text);
+  const bool is_read = read_open(file, text);
   const int why = errno;
-  (void)fclose(stream);
+  (void)close(file);
   errno = why;
   return is_read;
 }
 
-static bool complain_of_file(const char* path, const char* expected, TunerFault* fault) {
-  (void)snprintf(fault->line, sizeof(fault->line), "%s:1: found no text (%s), expected %s", path,
-                 strerror(errno), expected);
-  return false;
+static void make_printable(TunerFault* fault) {
+  for (char* c = fault->line; *c; ++c) {
+    *c = (unsigned char)*c < ' ' || *c == 127 ? '?' : *c;
+  }
 }
 
-static bool complain_of_text(const char* path, const ScaleError* error, TunerFault* fault) {
-  (void)snprintf(fault->line, sizeof(fault->line), "%s:%u: found %s, expected %s", path,
-                 error->line, error->found, error->expected);
-  return false;
+static void complain_of_file(const char* path, TunerFile file, TunerFault* fault) {
+  static const char* const names[] = {"scale (.scl)", "mapping (.kbm)"};
+  (void)snprintf(fault->line, sizeof(fault->line), "%s:1: found no text (%s), expected a Scala %s",
+                 path, strerror(errno), names[file]);
 }
 
-bool tuner_file_scale(const char* path, Scale* scale, TunerFault* fault) {
+static void
+complain_of_text(const char* path, const ScaleError* error, bool may_quote, TunerFault* fault) {
+  (void)snprintf(fault->line, sizeof(fault->line), "%s:%u: %s%s%sexpected %s", path, error->line,
+                 may_quote ? "found " : "", may_quote ? error->found : "", may_quote ? ", " : "",
+                 error->expected);
+}
+
+static bool ends_with(const char* path, const char* ending) {
+  const size_t length = strlen(path);
+  const size_t n = strlen(ending);
+  return length > n && strcasecmp(path + length - n, ending) == 0;
+}
+
+/* false: its ending does not say. */
+static bool has_known_ending(const char* path, TunerFile* file) {
+  const bool is_mapping = ends_with(path, ".kbm");
+  *file = is_mapping ? TUNER_MAPPING : TUNER_SCALE;
+  return is_mapping || ends_with(path, ".scl") || ends_with(path, ".ascl");
+}
+
+static bool read_as(const Text* text, TunerFile file, TunerContent* content, ScaleError* error) {
+  content->file = file;
+  content->is_good = file == TUNER_MAPPING
+                         ? !scale_map_read(text->bytes, text->n_bytes, &content->map, error)
+                         : !scale_read(text->bytes, text->n_bytes, &content->scale, error);
+  return content->is_good;
+}
+
+/* What reads as a mapping may read as a scale of no notes, but not the other way. */
+static void
+read_whatever(const Text* text, TunerFile asked, TunerContent* content, ScaleError* error) {
+  if (!read_as(text, TUNER_MAPPING, content, error) &&
+      !read_as(text, TUNER_SCALE, content, error)) {
+    (void)read_as(text, asked, content, error);
+  }
+}
+
+void tuner_file_read(
+    const char* path, TunerFile asked, bool may_quote, TunerContent* content, TunerFault* fault) {
   Text text = {NULL, 0};
   ScaleError error;
-  const bool is_read = read_text(path, &text);
-  const bool is_good = (is_read || complain_of_file(path, "a Scala scale (.scl)", fault)) &&
-                       (!scale_read(text.bytes, text.n_bytes, scale, &error) ||
-                        complain_of_text(path, &error, fault));
+  TunerFile file = asked;
+  const bool is_known = has_known_ending(path, &file);
+  *content = (TunerContent){.file = is_known ? file : asked};
+  if (!read_text(path, &text)) {
+    complain_of_file(path, content->file, fault);
+    make_printable(fault);
+  } else {
+    if (is_known) {
+      (void)read_as(&text, file, content, &error);
+    } else {
+      read_whatever(&text, asked, content, &error);
+    }
+    if (!content->is_good) {
+      complain_of_text(path, &error, may_quote, fault);
+      make_printable(fault);
+    }
+  }
   free(text.bytes);
-  return is_good;
-}
-
-bool tuner_file_map(const char* path, ScaleMap* map, TunerFault* fault) {
-  Text text = {NULL, 0};
-  ScaleError error;
-  const bool is_read = read_text(path, &text);
-  const bool is_good = (is_read || complain_of_file(path, "a Scala mapping (.kbm)", fault)) &&
-                       (!scale_map_read(text.bytes, text.n_bytes, map, &error) ||
-                        complain_of_text(path, &error, fault));
-  free(text.bytes);
-  return is_good;
 }

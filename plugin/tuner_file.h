@@ -1,6 +1,8 @@
 /**
    Scala's files, read: what is wrong with one is said in a line for a person.
 
+   Plain files only are read, and nobody is waited for.
+
    Thread: any but the audio thread.
 */
 #ifndef HOOKE_PLUGIN_TUNER_FILE_H
@@ -15,21 +17,35 @@ enum {
   TUNER_FAULT_SIZE = TUNER_PATH_SIZE + 256 /**< Room for a line about it [bytes] */
 };
 
-/** "PATH:LINE: found WHAT, expected WHAT", without an end of line. */
+/** What a file is. */
+typedef enum { TUNER_SCALE, TUNER_MAPPING, TUNER_N_FILES } TunerFile;
+
+/** "PATH:LINE: found WHAT, expected WHAT", printable and without an end of line. */
 typedef struct {
   char line[TUNER_FAULT_SIZE];
 } TunerFault;
 
+/** What a file says. */
+typedef struct {
+  TunerFile file;
+  bool is_good; /**< false: nothing was read */
+  Scale scale;  /**< If it is a good scale; the caller's, to scale_free() */
+  ScaleMap map; /**< If it is a good mapping; the caller's, to scale_map_free() */
+} TunerContent;
+
 /**
-   Read a .scl file.
+   Read a .scl, .ascl or .kbm file.
 
-   @param[out] scale  Untouched on failure
-   @param[out] fault  Written on failure only
-   @return false if there is no such file, it cannot be read, or it is no scale
+   Its ending says what it is.  One of another ending is a mapping if it reads as one, or a scale if
+   it reads as that.
+
+   @param asked         What it counts as if neither its ending nor its text says
+   @param may_quote     Whether the fault may tell what stands in the file
+   @param[out] content  Not good if there is no such file, it cannot be read, or is not as it should
+   be
+   @param[out] fault    Written only then
 */
-bool tuner_file_scale(const char* path, Scale* scale, TunerFault* fault);
-
-/** The same of a .kbm file. */
-bool tuner_file_map(const char* path, ScaleMap* map, TunerFault* fault);
+void tuner_file_read(
+    const char* path, TunerFile asked, bool may_quote, TunerContent* content, TunerFault* fault);
 
 #endif

@@ -44,7 +44,7 @@ static LV2_State_Status
 put_path(const TunerUrids* urids, Slot slot, const char* path, const Paths* paths) {
   const uint32_t portable = LV2_STATE_IS_POD | LV2_STATE_IS_PORTABLE;
   if (!*path) {
-    return put(slot, path, urids->atom_String, portable);
+    return put(slot, path, urids->atom_Path, portable);
   }
   char* const mapped = paths->map ? paths->map->abstract_path(paths->map->handle, path) : NULL;
   if (!mapped) {
@@ -56,8 +56,7 @@ put_path(const TunerUrids* urids, Slot slot, const char* path, const Paths* path
 }
 
 static bool is_path(const TunerUrids* urids, uint32_t type, size_t length) {
-  return (type == urids->atom_Path && length < TUNER_PATH_SIZE) ||
-         (type == urids->atom_String && length == 0);
+  return (type == urids->atom_Path || type == urids->atom_String) && length < TUNER_PATH_SIZE;
 }
 
 /* Copy what is stored for a file to `path`; false if nothing is. */
@@ -79,6 +78,14 @@ static bool fetch(const TunerUrids* urids,
   memcpy(path, value, length);
   path[length] = '\0';
   return true;
+}
+
+/* A host that writes a path relative to its own file makes that file's of an empty one. */
+static bool is_of_host(const char* path) {
+  static const char ending[] = ".ttl";
+  const size_t length = strlen(path);
+  const size_t n = sizeof(ending) - 1;
+  return length > n && !strcmp(path + length - n, ending);
 }
 
 static void make_absolute(char path[TUNER_PATH_SIZE], const Paths* paths) {
@@ -118,7 +125,7 @@ LV2_State_Status tuner_state_restore(Tuner* tuner,
   for (int f = 0; f < TUNER_N_FILES; ++f) {
     if (fetch(&tuner->urids, f, found.path[f], retrieve, handle, &status)) {
       make_absolute(found.path[f], &paths);
-      given[f] = found.path[f];
+      given[f] = is_of_host(found.path[f]) ? "" : found.path[f];
     }
   }
   if (given[TUNER_SCALE] || given[TUNER_MAPPING]) {

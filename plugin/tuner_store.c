@@ -48,14 +48,28 @@ static void keep_path(TunerStore* store, TunerFile file, const char* path) {
   kept[n_bytes] = '\0';
 }
 
-static void read_scale(TunerStore* store, const char* path, TunerFault* fault) {
-  scale_equal(&store->scale);
-  (void)(*path && tuner_file_scale(path, &store->scale, fault));
+static void forget(TunerStore* store, TunerFile file) {
+  keep_path(store, file, "");
+  if (file == TUNER_SCALE) {
+    scale_free(&store->scale);
+    scale_equal(&store->scale);
+  } else {
+    scale_map_free(&store->map);
+    scale_map_linear(&store->map);
+  }
 }
 
-static void read_map(TunerStore* store, const char* path, TunerFault* fault) {
-  scale_map_linear(&store->map);
-  (void)(*path && tuner_file_map(path, &store->map, fault));
+static void
+take_file(TunerStore* store, TunerFile asked, const char* path, bool is_wish, TunerFault* fault) {
+  TunerContent content;
+  tuner_file_read(path, asked, is_wish, &content, fault);
+  forget(store, content.file);
+  keep_path(store, content.file, path);
+  if (content.is_good && content.file == TUNER_SCALE) {
+    store->scale = content.scale;
+  } else if (content.is_good) {
+    store->map = content.map;
+  }
 }
 
 bool tuner_store_init(TunerStore* store) {
@@ -73,6 +87,8 @@ bool tuner_store_init(TunerStore* store) {
 }
 
 void tuner_store_clear(TunerStore* store) {
+  scale_free(&store->scale);
+  scale_map_free(&store->map);
   (void)pthread_mutex_destroy(&store->lock);
 }
 
@@ -83,9 +99,13 @@ void tuner_store_load(TunerStore* store,
   (void)pthread_mutex_lock(&store->lock);
   for (int f = 0; f < TUNER_N_FILES; ++f) {
     faults->fault[f].line[0] = '\0';
-    if (paths[f]) {
-      keep_path(store, (TunerFile)f, paths[f]);
-      (f == TUNER_SCALE ? read_scale : read_map)(store, store->paths.path[f], &faults->fault[f]);
+    if (paths[f] && !*paths[f]) {
+      forget(store, (TunerFile)f);
+    }
+  }
+  for (int f = 0; f < TUNER_N_FILES; ++f) {
+    if (paths[f] && *paths[f]) {
+      take_file(store, (TunerFile)f, paths[f], is_wish, &faults->fault[f]);
     }
   }
   store->n_wishes += is_wish ? 1 : 0;

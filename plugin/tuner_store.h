@@ -18,9 +18,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** Which file. */
-typedef enum { TUNER_SCALE, TUNER_MAPPING, TUNER_N_FILES } TunerFile;
-
 /** Paths of both; an empty one is no file. */
 typedef struct {
   char path[TUNER_N_FILES][TUNER_PATH_SIZE];
@@ -62,14 +59,16 @@ typedef struct {
 } TunerFaults;
 
 /**
-   Read files, or forget them, and hand the table that results to the audio thread.
+   Read files, or forget them, and hand the table that results to the audio thread.  A file is kept
+   as what it is, whichever of the two it was given as.
 
    Thread: any, several at a time; takes memory, waits and reads files, so never the audio thread
    but where a host has the work done there.
 
    @param paths     Of less than TUNER_PATH_SIZE bytes, others are cut; empty: no file; NULL: as it
    was, and not read again
-   @param is_wish   Whether a player asked for it, and not a session
+   @param is_wish   Whether a player asked for it, and not a session, which may come from anywhere:
+   then no word of what stands in the file is told
    @param[out] faults  What is wrong with those that were read
 */
 void tuner_store_load(TunerStore* store,

@@ -27,6 +27,9 @@ struct Guitar {
   GuitarString tails[GUITAR_VOICES]; /* What they did before they were plucked again */
   void* memory;                      /* Of all strings; owned */
   GuitarMixer mixer;
+
+  /* What each key has on each channel, against equal temperament [semitones] */
+  double detuning[PERFORMANCE_CHANNELS][PERFORMANCE_KEYS];
 };
 
 /* In frames, no shorter than a gesture. */
@@ -54,6 +57,34 @@ static double beside(const GuitarPatch* patch, uint32_t string) {
 
 static void set_palm(Guitar* guitar) {
   guitar->patch.palm = fmin(1.0, guitar->palm + guitar->weight);
+}
+
+/* Of a note, which may lie between keys or beyond them. */
+static double detuning_at(const Guitar* guitar, uint32_t channel, double note) {
+  const double* const keys = guitar->detuning[channel];
+  const double inside = clamp(note, 0.0, PERFORMANCE_KEYS - 1.0);
+  const uint32_t below = least((uint32_t)inside, PERFORMANCE_KEYS - 2);
+  const double share = inside - below;
+  return keys[below] + share * (keys[below + 1] - keys[below]);
+}
+
+/* Tune a string as its key is, and say how far from there a fret is, in semitones. */
+static double stop_at(const Guitar* guitar, uint32_t string, GuitarString* s, double fret) {
+  const double nut = guitar->patch.open[string] + guitar->patch.capo;
+  s->detuning = detuning_at(guitar, s->channel, nut);
+  s->fret = fret;
+  return fret + (detuning_at(guitar, s->channel, nut + fret) - s->detuning);
+}
+
+/* Put a string where its fret is now. */
+static void tune(Guitar* guitar, uint32_t string, GuitarString* s, uint32_t n_frames) {
+  const double before = s->detuning;
+  const double stop = stop_at(guitar, string, s, s->fret);
+  if (stop != guitar_string_fretted(s)) {
+    guitar_string_slide(s, stop, n_frames);
+  } else if (s->detuning != before) {
+    guitar_string_follow(s, n_frames);
+  }
 }
 
 static void follow_all(Guitar* guitar, uint32_t n_frames) {
@@ -110,6 +141,7 @@ void guitar_reset(Guitar* guitar) {
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     guitar_string_reset(&guitar->strings[w]);
     guitar_string_reset(&guitar->tails[w]);
+    tune(guitar, w % GUITAR_STRINGS, &guitar->strings[w], 0);
   }
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
     guitar_mixer_set_gain(&guitar->mixer, &guitar->patch, s, 1.0, 0);
@@ -121,6 +153,7 @@ void guitar_reset(Guitar* guitar) {
 void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frames) {
   const uint32_t n_glide =
       n_frames > 0 && n_frames < guitar->n_gesture ? guitar->n_gesture : n_frames;
+  const GuitarPatch before = guitar->patch;
   guitar->patch = *patch;
   guitar->palm = patch->palm;
   set_palm(guitar);
@@ -128,11 +161,59 @@ void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frame
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
     string_of(guitar, s, 0)->open = patch->open[s];
     string_of(guitar, s, 1)->open = patch->open[s] + beside(patch, s);
-    for (int side = 0; !has(guitar, s) && side < 2; ++side) {
-      guitar_string_damp(string_of(guitar, s, side), GUITAR_CHOKED, 0);
+    const bool is_moved = patch->open[s] != before.open[s] || patch->capo != before.capo;
+    for (int side = 0; side < 2; ++side) {
+      if (is_moved) {
+        tune(guitar, s, string_of(guitar, s, side), n_glide);
+      }
+      if (!has(guitar, s)) {
+        guitar_string_damp(string_of(guitar, s, side), GUITAR_CHOKED, 0);
+      }
     }
   }
   follow_all(guitar, n_glide);
+}
+
+/* What a key without a pitch has is between those of its neighbours that have one. */
+static void fill_gaps(double detuning[PERFORMANCE_KEYS]) {
+  uint32_t last = PERFORMANCE_KEYS;
+  for (uint32_t key = 0; key <= PERFORMANCE_KEYS; ++key) {
+    const bool is_end = key == PERFORMANCE_KEYS;
+    if (!is_end && isnan(detuning[key])) {
+      continue;
+    }
+    const uint32_t first = last == PERFORMANCE_KEYS ? 0 : last + 1;
+    for (uint32_t gap = first; gap < key; ++gap) {
+      const double below = last == PERFORMANCE_KEYS ? is_end ? 0.0 : detuning[key] : detuning[last];
+      const double above = is_end ? below : detuning[key];
+      const double share = (double)(gap + 1 - first) / (double)(key + 1 - first);
+      detuning[gap] = below + share * (above - below);
+    }
+    last = key;
+  }
+}
+
+void guitar_set_scale(Guitar* guitar,
+                      uint32_t channel,
+                      const double semitones[PERFORMANCE_KEYS],
+                      bool is_live) {
+  double* const detuning = guitar->detuning[channel];
+  for (uint32_t key = 0; key < PERFORMANCE_KEYS; ++key) {
+    detuning[key] = semitones[key] - ((double)key - 69.0);
+  }
+  fill_gaps(detuning);
+  for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
+    GuitarString* const s = &guitar->strings[w];
+    if (s->channel == channel && (is_live || !s->voice.is_awake)) {
+      tune(guitar, w % GUITAR_STRINGS, s, guitar->n_gesture);
+    }
+  }
+}
+
+void guitar_follow_channel(Guitar* guitar, uint32_t string, uint32_t channel) {
+  for (int side = 0; has(guitar, string) && side < 2; ++side) {
+    string_of(guitar, string, side)->channel = channel;
+  }
 }
 
 void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
@@ -162,8 +243,9 @@ void guitar_hammer(Guitar* guitar, uint32_t string, double fret, double force) {
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
     GuitarString* const s = string_of(guitar, string, side);
     const double share = side ? guitar->patch.course : 1.0;
-    const double frets = guitar_string_fretted(s) - fret;
-    guitar_string_slide(s, fret, guitar->n_gesture);
+    const double stop = stop_at(guitar, string, s, fret);
+    const double frets = guitar_string_fretted(s) - stop;
+    guitar_string_slide(s, stop, guitar->n_gesture);
     if (share > 0.0 || s->voice.is_awake) {
       const Pluck own = {
           .place = fmin(exp2(-fmax(frets, 0.0) / 12.0), GUITAR_FARTHEST),
@@ -177,7 +259,8 @@ void guitar_hammer(Guitar* guitar, uint32_t string, double fret, double force) {
 
 void guitar_slide(Guitar* guitar, uint32_t string, double fret, double time_s) {
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
-    guitar_string_slide(string_of(guitar, string, side), fret, frames_of(guitar, time_s));
+    GuitarString* const s = string_of(guitar, string, side);
+    guitar_string_slide(s, stop_at(guitar, string, s, fret), frames_of(guitar, time_s));
   }
 }
 

@@ -23,6 +23,7 @@
 #define HOOKE_CORE_GUITAR_GUITAR_H
 
 #include "core/guitar/guitar_patch.h"
+#include "core/play/performance.h"
 #include "core/voice/voice.h"
 
 #include <stdbool.h>
@@ -61,6 +62,23 @@ void guitar_reset(Guitar* guitar);
 /** Take a new patch; what rings gets there in `n_frames`, and no faster than by a gesture (0: at
    once).  How and where strings are plucked, and the most masses, hold from the next pluck on. */
 void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frames);
+
+/**
+   Give the keys of a channel other pitches.  A string is tuned, open or at the capo, as its key is,
+   and every fret has the pitch of the key that it is: between keys, and past those that have no
+   pitch, in a straight line.  What a course has beside a string is as far from it as ever.
+
+   @param semitones  Above A4; NAN: the key has none.  `key − 69` is equal temperament
+   @param is_live    Whether strings that sound go there, in a gesture; else they do when they are
+   next fretted
+*/
+void guitar_set_scale(Guitar* guitar,
+                      uint32_t channel,
+                      const double semitones[PERFORMANCE_KEYS],
+                      bool is_live);
+
+/** Let a string have the pitches of a channel, when it is next fretted; 0 at first. */
+void guitar_follow_channel(Guitar* guitar, uint32_t string, uint32_t channel);
 
 /* The hands.  `string` counts from 0, the highest; one that the patch does not have is ignored.
    Times are in seconds, and no shorter than a gesture. */
@@ -113,7 +131,7 @@ void guitar_set_gain(Guitar* guitar, uint32_t string, double gain);
 /** Whether a string moves. */
 bool guitar_is_awake(const Guitar* guitar, uint32_t string);
 
-/** Where a string is stopped, or is being slid to. */
+/** Where a string is stopped, or is being slid to, in semitones above where the capo stops it. */
 double guitar_fretted(const Guitar* guitar, uint32_t string);
 
 /** What is sounding now, tails of what was plucked anew as well. */

@@ -58,9 +58,11 @@ static void act(void* instrument, const GuitarAct* act) {
     guitar_pluck(guitar, s, (GuitarPluck){a, b, c});
     break;
   case GUITAR_FRET:
+    guitar_follow_channel(guitar, s, act->channel);
     guitar_fret(guitar, s, a);
     break;
   case GUITAR_HAMMER:
+    guitar_follow_channel(guitar, s, act->channel);
     guitar_hammer(guitar, s, a, b);
     break;
   case GUITAR_SLIDE:
@@ -101,8 +103,13 @@ static void run(void* guitar, uint32_t n_frames, float* left, float* right) {
   guitar_run(guitar, n_frames, left, right);
 }
 
+static void
+tune(void* guitar, uint32_t channel, const double semitones[PERFORMANCE_KEYS], bool is_live) {
+  guitar_set_scale(guitar, channel, semitones, is_live);
+}
+
 GuitarSeat guitar_seat(Guitar* guitar) {
-  return (GuitarSeat){guitar, guitar_rate_hz(guitar), act, is_awake, run};
+  return (GuitarSeat){guitar, guitar_rate_hz(guitar), act, is_awake, run, tune};
 }
 
 bool guitar_event_play(Guitar* guitar, const GuitarEvent* event) {

@@ -52,7 +52,8 @@ typedef struct {
 typedef struct {
   GuitarVerb verb;
   uint32_t string;
-  double value[3]; /**< As GUITAR_VERBS says */
+  double value[3];  /**< As GUITAR_VERBS says */
+  uint32_t channel; /**< Whose pitches frets have; 0 in a score */
 } GuitarAct;
 
 /** A guitar under somebody's hands: one that sounds, or one that writes down what is done to it. */
@@ -62,6 +63,12 @@ typedef struct {
   void (*act)(void* guitar, const GuitarAct* act);
   bool (*is_awake)(const void* guitar, uint32_t string);
   void (*run)(void* guitar, uint32_t n_frames, float* left, float* right);
+
+  /** As guitar_set_scale(); NULL: it does not matter. */
+  void (*tune)(void* guitar,
+               uint32_t channel,
+               const double semitones[PERFORMANCE_KEYS],
+               bool is_live);
 } GuitarSeat;
 
 /** The seat at a guitar that sounds; it must outlive who sits there. */

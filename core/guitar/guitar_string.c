@@ -25,9 +25,14 @@ static double pitch_hz(const GuitarString* string, double note) {
   return string_patch_pitch_hz(&string->patch->string, note - 69.0);
 }
 
+static double open_note(const GuitarString* string) {
+  return string->open + string->detuning;
+}
+
 /* Of the open string, with no hand on it. */
 static TuningTarget open_target(const GuitarString* string) {
-  return free_target(string, string->open, pitch_hz(string, string->open));
+  const double note = open_note(string);
+  return free_target(string, note, pitch_hz(string, note));
 }
 
 /* The palm dulls it, too. */
@@ -54,7 +59,7 @@ static double uncorrected_hz(const GuitarString* string) {
 static VoiceAim aim_of(const GuitarString* string) {
   const GuitarPatch* const patch = string->patch;
   const VoiceMotion* const motion = &string->voice.motion;
-  const double note = string->open + patch->capo + motion->slide.value;
+  const double note = open_note(string) + patch->capo + motion->slide.value;
   const double f0_hz = patch->is_uncorrected ? uncorrected_hz(string) : pitch_hz(string, note);
   const double bent_hz = f0_hz * exp2(motion_bend(motion) / 12.0);
   return (VoiceAim){
@@ -149,6 +154,8 @@ void guitar_string_reset(GuitarString* string) {
   voice_reset(&string->voice);
   string->damper = GUITAR_RINGING;
   string->n_damped = 0;
+  string->fret = 0.0;
+  string->channel = 0;
 }
 
 double guitar_string_place(const GuitarString* string, double place) {
@@ -207,6 +214,7 @@ void guitar_string_leave(GuitarString* string, GuitarString* tail) {
   voice_slide(&tail->voice, tail->voice.motion.slide.value, 0);
   tail->pickups = string->pickups;
   tail->open = string->open;
+  tail->detuning = string->detuning;
   tail->n_fade = string->n_fade;
   tail->n_open = string->n_open;
   tail->damper = GUITAR_RINGING;

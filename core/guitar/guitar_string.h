@@ -43,6 +43,9 @@ typedef struct {
   Pickups pickups;
   GuitarDamper damper;
   double open;       /**< MIDI note of the open string */
+  double detuning;   /**< Of the string at the capo, against equal temperament [semitones] */
+  double fret;       /**< Where it was last put, from the capo, as a number of keys */
+  uint32_t channel;  /**< Whose pitches its frets have */
   uint32_t n_fade;   /**< Frames that the next fade of the pickups takes */
   uint32_t n_open;   /**< Masses of the open string that it was strung as */
   uint32_t n_damped; /**< Frames until what damps it lifts; 0: it does not lift by itself */

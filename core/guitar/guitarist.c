@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A harmonic is touched until the string has settled into it. */
 static const double TOUCH_PERIODS = 20.0;
@@ -19,8 +20,8 @@ static const GuitarPatch USUAL = {
     .n_strings = 6,
 };
 
-static double touch_s(const Guitarist* guitarist, uint32_t key) {
-  const double f0_hz = guitarist->tuning_hz * exp2((key - 69.0) / 12.0);
+static double touch_s(const Guitarist* guitarist, uint32_t channel, uint32_t key) {
+  const double f0_hz = guitarist->tuning_hz * exp2(guitarist->scales[channel][key] / 12.0);
   return fmin(fmax(TOUCH_PERIODS / f0_hz, LEAST_TOUCH_S), MOST_TOUCH_S);
 }
 
@@ -42,7 +43,7 @@ static void play_note(Guitarist* guitarist, const GuitaristEvent* event) {
       .hardness = hardness_of(guitarist, event->channel, event->value),
       .fret = guitarist_chord_fret(guitarist, event->string, event->key),
       .harmonic = guitarist->how.harmonic,
-      .touch_s = touch_s(guitarist, event->key),
+      .touch_s = touch_s(guitarist, event->channel, event->key),
   };
   if (guitarist_chord_is_hammered(guitarist, event)) {
     guitarist_string_hammer(hand, note);
@@ -202,10 +203,19 @@ static void lay_palm(const Guitarist* guitarist) {
   guitarist->seat.act(guitarist->seat.guitar, &palm);
 }
 
+static void tune_equally(Guitarist* guitarist) {
+  for (uint32_t c = 0; c < PERFORMANCE_CHANNELS; ++c) {
+    for (uint32_t key = 0; key < PERFORMANCE_KEYS; ++key) {
+      guitarist->scales[c][key] = (double)key - 69.0;
+    }
+  }
+}
+
 Guitarist* guitarist_new(GuitarSeat seat) {
   Guitarist* const guitarist = calloc(1, sizeof(Guitarist));
   if (guitarist) {
     guitarist->seat = seat;
+    tune_equally(guitarist);
     guitarist_set_patch(guitarist, &USUAL);
     guitarist_reset(guitarist);
   }
@@ -245,10 +255,27 @@ void guitarist_set_patch(Guitarist* guitarist, const GuitarPatch* patch) {
   }
 }
 
+void guitarist_set_scale(Guitarist* guitarist,
+                         uint32_t channel,
+                         const double semitones[PERFORMANCE_KEYS],
+                         bool is_live) {
+  memcpy(guitarist->scales[channel], semitones, sizeof(guitarist->scales[channel]));
+  if (guitarist->seat.tune) {
+    guitarist->seat.tune(guitarist->seat.guitar, channel, semitones, is_live);
+  }
+  for (uint32_t s = 0; is_live && s < GUITAR_STRINGS; ++s) {
+    const GuitaristString* const string = &guitarist->strings[s];
+    if (string->has_played && string->note.channel == channel &&
+        isnan(semitones[string->note.key])) {
+      guitarist_string_choke(guitarist_chord_hand(guitarist, s));
+    }
+  }
+}
+
 void guitarist_note_on(Guitarist* guitarist, uint32_t channel, uint32_t key, uint32_t velocity) {
   if (velocity == 0) {
     guitarist_note_off(guitarist, channel, key);
-  } else if (is_of_midi(channel, key)) {
+  } else if (is_of_midi(channel, key) && !isnan(guitarist->scales[channel][key])) {
     const uint32_t value = velocity < MOST_VELOCITY ? velocity : MOST_VELOCITY;
     take(guitarist, (GuitaristEvent){
                         .verb = GUITARIST_NOTE_ON, .channel = channel, .key = key, .value = value});
@@ -414,8 +441,13 @@ static void seat(void* guitarist, uint32_t channel, uint32_t number) {
   guitarist_seat(guitarist, channel, number);
 }
 
+static void
+tune(void* guitarist, uint32_t channel, const double semitones[PERFORMANCE_KEYS], bool is_live) {
+  guitarist_set_scale(guitarist, channel, semitones, is_live);
+}
+
 Performance guitarist_performance(Guitarist* guitarist) {
-  static const PerformanceKind kind = {note_on, note_off,      gesture,       press_key,
-                                       let_go,  all_notes_off, all_sound_off, seat};
+  static const PerformanceKind kind = {note_on,       note_off,      gesture, press_key, let_go,
+                                       all_notes_off, all_sound_off, seat,    tune};
   return (Performance){&kind, guitarist};
 }

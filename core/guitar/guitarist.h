@@ -56,6 +56,13 @@ Guitarist* guitarist_new(GuitarSeat seat);
 /** Free a guitarist; NULL is ignored. */
 void guitarist_free(Guitarist* guitarist);
 
+/** Give the keys of a channel other pitches, see guitar_set_scale(), which it calls.  A key without
+ * one plays nothing, and what it plays is choked if `is_live`. */
+void guitarist_set_scale(Guitarist* guitarist,
+                         uint32_t channel,
+                         const double semitones[PERFORMANCE_KEYS],
+                         bool is_live);
+
 /** All notes and gestures as at the start, and every channel's string that of its number; the
    guitar is not touched, and is to be reset too. */
 void guitarist_reset(Guitarist* guitarist);

@@ -64,6 +64,7 @@ typedef struct {
   int32_t position; /**< Fret of the first finger, from the capo */
   GuitaristString strings[GUITAR_STRINGS];
   GuitaristChannel channels[PERFORMANCE_CHANNELS];
+  double scales[PERFORMANCE_CHANNELS][PERFORMANCE_KEYS]; /**< Above A4 [semitones]; NAN: no pitch */
   GuitaristStrum strum;
   uint64_t now;      /**< In frames */
   uint64_t n_played; /**< Notes so far */

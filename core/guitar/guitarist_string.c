@@ -12,7 +12,7 @@ static uint32_t bit(uint32_t channel) {
 }
 
 static void act(GuitaristHand hand, GuitarVerb verb, double a, double b, double c) {
-  const GuitarAct exact = {verb, hand.index, {a, b, c}};
+  const GuitarAct exact = {verb, hand.index, {a, b, c}, hand.string->note.channel};
   hand.seat->act(hand.seat->guitar, &exact);
 }
 

@@ -58,6 +58,12 @@ static void lay_out(Harp* harp, char* memory) {
   }
 }
 
+static void tune_equally(Harp* harp) {
+  for (uint32_t i = 0; i < HARP_CHANNELS * HARP_KEYS; ++i) {
+    harp->scales[i / HARP_KEYS][i % HARP_KEYS] = (double)(i % HARP_KEYS) - 69.0;
+  }
+}
+
 Harp* harp_new(double rate_hz) {
   Harp* const harp = isfinite(rate_hz) && rate_hz > 0.0 ? calloc(1, sizeof(Harp)) : NULL;
   if (!harp) {
@@ -73,6 +79,7 @@ Harp* harp_new(double rate_hz) {
   harp_bridge_init(&harp->bridge, rate_hz);
   lay_out(harp, harp->memory);
   harp_channels_reset(harp->channels);
+  tune_equally(harp);
   return harp;
 }
 
@@ -83,9 +90,15 @@ void harp_free(Harp* harp) {
   }
 }
 
+/* Give a string the pitch that its key has on the channel that played it last. */
+static void tune(Harp* harp, HarpString* string) {
+  string->semitones = harp->scales[string->channel][string->key];
+}
+
 void harp_reset(Harp* harp) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     harp_string_rest(&harp->strings[i]);
+    tune(harp, &harp->strings[i]);
   }
   harp_channels_reset(harp->channels);
   harp_bridge_init(&harp->bridge, harp->rate_hz);
@@ -114,11 +127,13 @@ void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames) {
   }
 }
 
-void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]) {
+void harp_set_scale(Harp* harp, uint32_t channel, const double semitones[HARP_KEYS], bool is_live) {
+  memcpy(harp->scales[channel], semitones, sizeof(harp->scales[channel]));
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (semitones[string->key] != string->semitones) {
-      string->semitones = semitones[string->key];
+    if (string->channel == channel && (is_live || !string->voice.is_awake) &&
+        semitones[string->key] != string->semitones) {
+      tune(harp, string);
       retune(harp, string, harp->n_gesture);
     }
   }
@@ -152,6 +167,7 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   string->is_let_go = false;
   string->leaned_on = 0.0;
   string->touch = harp->channels[channel].touch;
+  tune(harp, string);
   harp->is_bowed = harp->patch.exciter == EXCITER_BOW || (harp->is_bowed && !is_still(harp));
   Pluck pluck = pluck_of(harp, &harp->channels[channel], velocity);
   pluck.amplitude *= louder;
@@ -177,6 +193,7 @@ static void hand_on(Harp* harp, HarpString* string) {
   }
   (void)harp_channels_hand(harp, string, channel);
   string->touch = harp->channels[channel].touch;
+  tune(harp, string);
   retune(harp, string, harp->n_gesture);
 }
 

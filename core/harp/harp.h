@@ -42,7 +42,8 @@ void harp_reset(Harp* harp);
 void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames);
 
 /**
-   Tune the keys anew; what rings glides there by a gesture.
+   Tune the keys of a channel anew.  What it has played glides there by a gesture if `is_live`, and
+   else keeps its pitch until it is played again; what is at rest is tuned at once.
 
    A key then has tuning_hz · 2^((semitones + bend) / 12).  Damping and its tracking stay with the
    key.  Every string has memory for CHAIN_MAX_MASSES, so that a scale takes none of its masses from
@@ -51,7 +52,7 @@ void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames);
    @param semitones  Of every key above A4, in any order; NAN: it has no pitch.  `key − 69` is equal
    temperament, as after harp_new()
 */
-void harp_set_scale(Harp* harp, const double semitones[HARP_KEYS]);
+void harp_set_scale(Harp* harp, uint32_t channel, const double semitones[HARP_KEYS], bool is_live);
 
 /* What channels do; each is a number less than HARP_CHANNELS, each key one less than HARP_KEYS.
    What it does to what rings takes a gesture, sample by sample. */

@@ -63,7 +63,6 @@ HarpString* harp_channels_take(Harp* harp, uint32_t channel, uint32_t key) {
   HarpString* const spare = find_spare(harp, channel, key);
   if (spare) {
     spare->key = key;
-    spare->semitones = own->semitones;
   }
   return spare ? spare : own;
 }

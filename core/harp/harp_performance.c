@@ -60,8 +60,13 @@ static void all_sound_off(void* harp, uint32_t channel) {
   harp_all_sound_off(harp, channel);
 }
 
+static void
+tune(void* harp, uint32_t channel, const double semitones[PERFORMANCE_KEYS], bool is_live) {
+  harp_set_scale(harp, channel, semitones, is_live);
+}
+
 Performance harp_performance(Harp* harp) {
-  static const PerformanceKind kind = {note_on, note_off,      gesture,       press_key,
-                                       let_go,  all_notes_off, all_sound_off, NULL};
+  static const PerformanceKind kind = {note_on,       note_off,      gesture, press_key, let_go,
+                                       all_notes_off, all_sound_off, NULL,    tune};
   return (Performance){&kind, harp};
 }

@@ -78,6 +78,8 @@ typedef struct Harp {
   uint32_t n_gesture; /**< Frames that a player's gesture takes to act */
   HarpPatch patch;
   HarpChannel channels[HARP_CHANNELS];
+  double scales[HARP_CHANNELS][HARP_KEYS]; /**< Pitches of each channel's keys above A4
+                                              [semitones]; NAN: none */
   Line level;
   Pickups pickups;
   uint32_t n_fade;                  /**< Frames that the next fade will take */

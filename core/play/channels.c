@@ -185,6 +185,16 @@ static void reset_controllers(Channels* all, uint32_t channel) {
   }
 }
 
+static void tune(const Channels* all, MtsChange change) {
+  double semitones[PERFORMANCE_KEYS];
+  for (uint32_t c = 0; c < PERFORMANCE_CHANNELS; ++c) {
+    if (change.channels >> c & 1) {
+      mts_pitches(&all->mts, c, semitones);
+      all->to.kind->tune(all->to.instrument, c, semitones, change.is_live);
+    }
+  }
+}
+
 /* What a leader says, or a channel that follows none. */
 static void play_leader(Channels* all, uint32_t channel, uint32_t controller, uint32_t value) {
   Channel* const c = &all->channels[channel];
@@ -248,9 +258,14 @@ static void play_controller(Channels* all, const MidiMessage* message) {
 
 void channels_reset(Channels* all) {
   all->zones = (Zones){0};
+  mts_reset(&all->mts);
   for (uint32_t c = 0; c < ZONES_CHANNELS; ++c) {
     channel_reset(&all->channels[c], USUAL_CENTS);
   }
+}
+
+void channels_set_scale(Channels* all, const double semitones[PERFORMANCE_KEYS]) {
+  tune(all, mts_set_scale(&all->mts, semitones));
 }
 
 void channels_silence(Channels* all) {
@@ -287,7 +302,9 @@ void channels_play(Channels* all, const uint8_t* bytes, uint32_t n_bytes, bool i
     move(all, channel, &c->wheel, message.bend, GESTURE_BEND);
     break;
   case MIDI_PROGRAM:
+    break;
   case MIDI_OTHER:
+    tune(all, mts_play(&all->mts, bytes, n_bytes));
     break;
   }
 }

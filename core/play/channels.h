@@ -10,6 +10,7 @@
 #define HOOKE_CORE_PLAY_CHANNELS_H
 
 #include "core/play/channel.h"
+#include "core/play/mts.h"
 #include "core/play/performance.h"
 #include "core/play/zones.h"
 
@@ -24,11 +25,16 @@ typedef struct {
   Performance to;
   Zones zones;
   Channel channels[ZONES_CHANNELS];
+  Mts mts;
 } Channels;
 
-/** As if no message had come: no zone, ranges of ±2 semitones.  The instrument is not told; it is
- * to be reset too. */
+/** As if no message had come: no zone, ranges of ±2 semitones, equal temperament.  The instrument
+ * is not told; it is to be reset too. */
 void channels_reset(Channels* all);
+
+/** Tune the keys of all channels, and what sounds too, until a message tunes them otherwise.
+ * @param semitones  Above A4, master tuning not in them; NAN: no pitch */
+void channels_set_scale(Channels* all, const double semitones[PERFORMANCE_KEYS]);
 
 /** All sound off, of all channels. */
 void channels_silence(Channels* all);
@@ -40,7 +46,7 @@ void channels_silence(Channels* all);
    coarse tuning, parameters 1 and 2; zones, parameter 6 on channels 0 and 15, of 0 to 15 members.
    Pressure, of all keys or of one.  Vibrato (1), breath (2), volume (7), expression (11), pedals
    (64, 66, 67), brightness (74), all sound off (120), reset controllers (121), all notes off (123
-   and the mode messages after it).
+   and the mode messages after it).  System exclusive messages that tune, see core/play/mts.h.
 
    A zone's member hears notes, its wheel and the wheel's range (which is every member's), its
    pressure and its brightness.  All else it leaves to its leader, whose every message is for all

@@ -10,6 +10,7 @@
 #ifndef HOOKE_CORE_PLAY_PERFORMANCE_H
 #define HOOKE_CORE_PLAY_PERFORMANCE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 enum { PERFORMANCE_CHANNELS = 16, PERFORMANCE_KEYS = 128 };
@@ -53,6 +54,13 @@ typedef struct {
   /** The channel has a place among equals, from 0 on, or more than any instrument has: its own
    * number at first, and in a zone that among the members.  NULL: it does not matter. */
   void (*seat)(void* instrument, uint32_t channel, uint32_t seat);
+
+  /** The channel's keys have these pitches above A4 [semitones], NAN: none, from the next notes on,
+   * and `is_live`: what it plays already moves there too.  At first they have `key − 69`. */
+  void (*tune)(void* instrument,
+               uint32_t channel,
+               const double semitones[PERFORMANCE_KEYS],
+               bool is_live);
 } PerformanceKind;
 
 /** An instrument, and how it is played. */

@@ -9,6 +9,12 @@ enum { A4_KEY = 69, MIDDLE_C_KEY = 60, NOTES_IN_OCTAVE = 12 };
 static const double A4_HZ = 440.0;
 static const ScalePitch UNISON = {.cents = 0.0, .over = 1.0, .under = 1.0};
 
+static const ScalePitch EQUAL[NOTES_IN_OCTAVE] = {
+    {100.0, 1.0, 1.0}, {200.0, 1.0, 1.0},  {300.0, 1.0, 1.0},  {400.0, 1.0, 1.0},
+    {500.0, 1.0, 1.0}, {600.0, 1.0, 1.0},  {700.0, 1.0, 1.0},  {800.0, 1.0, 1.0},
+    {900.0, 1.0, 1.0}, {1000.0, 1.0, 1.0}, {1100.0, 1.0, 1.0}, {1200.0, 1.0, 1.0},
+};
+
 static int32_t floor_of(int32_t number, int32_t by) {
   return number / by - (number % by < 0 ? 1 : 0);
 }
@@ -34,8 +40,8 @@ static bool is_good_map(const ScaleMap* map) {
          has_good_entries(map);
 }
 
-static int32_t degree_of(const Scale* scale, const ScaleMap* map, uint32_t key) {
-  const int32_t from_middle = (int32_t)key - (int32_t)map->middle_key;
+static int32_t degree_of(const Scale* scale, const ScaleMap* map, int32_t key) {
+  const int32_t from_middle = key - (int32_t)map->middle_key;
   const int32_t n_entries = (int32_t)map->n_entries;
   if (n_entries == 0) {
     return from_middle;
@@ -74,6 +80,30 @@ static double interval(const Scale* scale, int32_t from_degree, int32_t to_degre
   return exp2(cents / 1200.0) * (ratio * power(period, n_periods));
 }
 
+/* The degree of the nearest key from the reference on that has one, `step` by `step`. */
+static int32_t nearest_degree(const Scale* scale, const ScaleMap* map, int32_t step) {
+  int32_t key = (int32_t)map->reference_key;
+  int32_t degree = degree_of(scale, map, key);
+  for (uint32_t i = 0; i < map->n_entries && degree == SCALE_UNMAPPED; ++i) {
+    key += step;
+    degree = degree_of(scale, map, key);
+  }
+  return degree;
+}
+
+/* What a reference is between, which are the same if it has a degree of its own. */
+typedef struct {
+  int32_t below;
+  int32_t above;
+} Reference;
+
+static double from_reference(const Scale* scale, Reference reference, int32_t degree) {
+  const double below = interval(scale, reference.below, degree);
+  return reference.below == reference.above
+             ? below
+             : sqrt(below) * sqrt(interval(scale, reference.above, degree));
+}
+
 static double in_range(double hz) {
   return hz >= SCALE_MIN_HZ && hz <= SCALE_MAX_HZ ? hz : (double)NAN;
 }
@@ -84,10 +114,7 @@ static double reference_hz(const ScaleMap* map, double a4_hz) {
 }
 
 void scale_equal(Scale* scale) {
-  *scale = (Scale){.n_notes = NOTES_IN_OCTAVE};
-  for (uint32_t i = 0; i < NOTES_IN_OCTAVE; ++i) {
-    scale->pitches[i] = (ScalePitch){.cents = 100.0 * (i + 1.0), .over = 1.0, .under = 1.0};
-  }
+  *scale = (Scale){.n_notes = NOTES_IN_OCTAVE, .pitches = EQUAL};
 }
 
 void scale_map_linear(ScaleMap* map) {
@@ -99,22 +126,33 @@ void scale_map_linear(ScaleMap* map) {
   };
 }
 
+void scale_free(Scale* scale) {
+  free(scale->memory);
+  *scale = (Scale){.n_notes = 0};
+}
+
+void scale_map_free(ScaleMap* map) {
+  free(map->degrees);
+  map->degrees = NULL;
+  map->n_entries = 0;
+}
+
 Status scale_tune(const Scale* scale, const ScaleMap* map, double a4_hz, double hz[SCALE_KEYS]) {
   if (scale->n_notes > SCALE_MAX_NOTES || !is_good_map(map) || !(a4_hz > 0.0) || isinf(a4_hz)) {
     return STATUS_BAD_ARGUMENT;
   }
-  const int32_t reference = degree_of(scale, map, map->reference_key);
-  if (reference == SCALE_UNMAPPED) {
+  const Reference reference = {nearest_degree(scale, map, -1), nearest_degree(scale, map, 1)};
+  if (reference.below == SCALE_UNMAPPED) {
     return STATUS_BAD_ARGUMENT;
   }
   for (uint32_t key = 0; key < SCALE_KEYS; ++key) {
-    const int32_t degree = degree_of(scale, map, key);
+    const int32_t degree = degree_of(scale, map, (int32_t)key);
     if (key < map->first_key || key > map->last_key) {
       hz[key] = in_range(a4_hz * exp2(((double)key - A4_KEY) / NOTES_IN_OCTAVE));
     } else if (degree == SCALE_UNMAPPED) {
       hz[key] = (double)NAN;
     } else {
-      hz[key] = in_range(reference_hz(map, a4_hz) * interval(scale, reference, degree));
+      hz[key] = in_range(reference_hz(map, a4_hz) * from_reference(scale, reference, degree));
     }
   }
   return STATUS_OK;

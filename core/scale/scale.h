@@ -16,12 +16,15 @@
 
        hz(key) = f_ref · (A4 / 440) · interval(degree(key)) / interval(degree(reference key)).
 
+   A reference key that the map leaves out lies halfway, in cents, between the nearest keys below
+   and above that have a degree, however far they are.
+
    The texts.  Lines end with LF, CR LF or CR; one that begins with '!' is a comment.  In a scale
    the first line describes it and may be empty.  After that, and in maps everywhere, empty lines
    are skipped, what stands behind a value is ignored, and so are the lines behind the last one
    needed. The decimal sign is a point in every locale.
 
-   Thread: any but the audio thread; nothing here allocates.
+   Thread: any but the audio thread; reading takes memory.
 */
 #ifndef HOOKE_CORE_SCALE_SCALE_H
 #define HOOKE_CORE_SCALE_SCALE_H
@@ -32,15 +35,15 @@
 #include <stdint.h>
 
 enum {
-  SCALE_KEYS = 128,           /**< Of MIDI */
-  SCALE_MAX_NOTES = 1024,     /**< In a scale */
-  SCALE_MAX_PATTERN = 1024,   /**< Entries of a map */
-  SCALE_MAX_DEGREE = 1000000, /**< In a map, up and down */
-  SCALE_MAX_CENTS = 120000,   /**< Of a pitch, up and down */
-  SCALE_MAX_BYTES = 1 << 20,  /**< In a text */
-  SCALE_UNMAPPED = INT32_MIN, /**< The degree of a key without one */
-  SCALE_FOUND_SIZE = 64,      /**< Room in ScaleError [bytes] */
-  SCALE_EXPECTED_SIZE = 96    /**< Room in ScaleError [bytes] */
+  SCALE_KEYS = 128,            /**< Of MIDI */
+  SCALE_MAX_BYTES = 1 << 24,   /**< In a text */
+  SCALE_MAX_NOTES = 1 << 23,   /**< In a scale: more than a text has room for */
+  SCALE_MAX_PATTERN = 1000000, /**< Entries of a map */
+  SCALE_MAX_DEGREE = 1000000,  /**< In a map, up and down */
+  SCALE_MAX_CENTS = 120000,    /**< Of a pitch, up and down */
+  SCALE_UNMAPPED = INT32_MIN,  /**< The degree of a key without one */
+  SCALE_FOUND_SIZE = 64,       /**< Room in ScaleError [bytes] */
+  SCALE_EXPECTED_SIZE = 96     /**< Room in ScaleError [bytes] */
 };
 
 /** Largest number above or below the slash of a ratio. */
@@ -59,21 +62,21 @@ typedef struct {
 
 /** A scale; all zeros is one without notes. */
 typedef struct {
-  uint32_t n_notes; /**< 0 to SCALE_MAX_NOTES; 0: every degree is 1/1 */
-  ScalePitch
-      pitches[SCALE_MAX_NOTES]; /**< Of degrees 1 to n_notes, in any order, the period last */
+  uint32_t n_notes;          /**< 0 to SCALE_MAX_NOTES; 0: every degree is 1/1 */
+  const ScalePitch* pitches; /**< Of degrees 1 to n_notes, in any order, the period last */
+  ScalePitch* memory;        /**< Where they lie, owned; NULL: in no memory of the scale's own */
 } Scale;
 
 /** A keyboard mapping. */
 typedef struct {
-  uint32_t n_entries;                 /**< Keys in the pattern; 0: every key is a degree */
-  uint32_t first_key;                 /**< Keys below are not retuned */
-  uint32_t last_key;                  /**< Keys above are not retuned */
-  uint32_t middle_key;                /**< Where the pattern begins */
-  uint32_t reference_key;             /**< To have reference_hz; need not be retuned, but mapped */
-  double reference_hz;                /**< SCALE_MIN_HZ to SCALE_MAX_HZ */
-  int32_t octave_degree;              /**< Between a pattern and the next; 0: the scale's period */
-  int32_t degrees[SCALE_MAX_PATTERN]; /**< Or SCALE_UNMAPPED */
+  uint32_t n_entries;     /**< Keys in the pattern; 0: every key is a degree */
+  uint32_t first_key;     /**< Keys below are not retuned */
+  uint32_t last_key;      /**< Keys above are not retuned */
+  uint32_t middle_key;    /**< Where the pattern begins */
+  uint32_t reference_key; /**< To have reference_hz; need be neither retuned nor mapped */
+  double reference_hz;    /**< SCALE_MIN_HZ to SCALE_MAX_HZ */
+  int32_t octave_degree;  /**< Between a pattern and the next; 0: the scale's period */
+  int32_t* degrees;       /**< Of each entry, or SCALE_UNMAPPED; owned */
 } ScaleMap;
 
 /** What is wrong with a text: "LINE: found FOUND, expected EXPECTED", in printable ASCII. */
@@ -83,11 +86,15 @@ typedef struct {
   char expected[SCALE_EXPECTED_SIZE];
 } ScaleError;
 
-/** Twelve equal notes to the octave. */
+/** Twelve equal notes to the octave; takes no memory. */
 void scale_equal(Scale* scale);
 
-/** Every key a degree, degree 0 at key 60, and 440 Hz at key 69. */
+/** Every key a degree, degree 0 at key 60, and 440 Hz at key 69; takes no memory. */
 void scale_map_linear(ScaleMap* map);
+
+/** Free what a scale, or a map, has read, and leave it without notes or entries. */
+void scale_free(Scale* scale);
+void scale_map_free(ScaleMap* map);
 
 /**
    Read the text of a .scl file.
@@ -97,9 +104,10 @@ void scale_map_linear(ScaleMap* map);
 
    @param text        Need not end with NUL nor with the end of a line; may begin with a UTF-8 mark
    @param n_bytes     Of `text`
-   @param[out] scale  Untouched on failure
+   @param[out] scale  The caller's, to scale_free(); what was in it is not freed.  Untouched on
+   failure
    @param[out] error  Written on failure only
-   @return STATUS_OK or STATUS_BAD_TEXT
+   @return STATUS_OK, or STATUS_BAD_TEXT, also if there is no memory for it
 */
 Status scale_read(const char* text, size_t n_bytes, Scale* scale, ScaleError* error);
 
@@ -107,9 +115,9 @@ Status scale_read(const char* text, size_t n_bytes, Scale* scale, ScaleError* er
    Read the text of a .kbm file.
 
    Entries that are missing at the end are unmapped.  Degrees may lie outside the scale, above and
-   below.  A reference key that the map leaves unmapped is an error.
+   below.  A pattern that has no degree at all is an error.
 
-   Parameters and failures as for scale_read().
+   Parameters and failures as for scale_read(), and scale_map_free().
 */
 Status scale_map_read(const char* text, size_t n_bytes, ScaleMap* map, ScaleError* error);
 
@@ -125,8 +133,7 @@ Status scale_map_read(const char* text, size_t n_bytes, ScaleMap* map, ScaleErro
    @param a4_hz    What the instrument's control says [Hz], > 0
    @param[out] hz  Of every key; NAN for one that is unmapped or comes to lie outside SCALE_MIN_HZ
    to SCALE_MAX_HZ.  True to a few roundings.  Untouched on failure
-   @return STATUS_OK, or STATUS_BAD_ARGUMENT if a number is out of its range or the reference key is
-           unmapped
+   @return STATUS_OK, or STATUS_BAD_ARGUMENT if a number is out of its range or no key is mapped
 */
 Status scale_tune(const Scale* scale, const ScaleMap* map, double a4_hz, double hz[SCALE_KEYS]);
 

@@ -1,6 +1,7 @@
 #include "core/scale/scale_text.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 static bool take_whole(ScaleText* text, double min, double max, double* whole) {
   ScaleNumber number;
@@ -63,15 +64,30 @@ static bool read_pitch(ScaleText* text, uint32_t i, uint32_t n, ScalePitch* pitc
                          i, n);
 }
 
+static bool is_out_of_memory(ScaleText* text) {
+  (void)scale_text_fail(text, false, "a computer with more memory free");
+  return false;
+}
+
+/* As many as there can be in what is left, at two bytes each, whatever number was promised. */
+static bool take_memory(ScaleText* text, Scale* scale) {
+  const size_t n_left = (size_t)(text->end - text->next) / 2 + 1;
+  const size_t n_notes = scale->n_notes < n_left ? scale->n_notes : n_left;
+  scale->memory = n_notes > 0 ? malloc(n_notes * sizeof(ScalePitch)) : NULL;
+  scale->pitches = scale->memory;
+  return scale->memory || n_notes == 0 || is_out_of_memory(text);
+}
+
 static bool read_scale(ScaleText* text, Scale* scale) {
   if (!scale_text_next(text)) {
     return scale_text_fail(text, true, "a line that describes the scale");
   }
-  if (!read_count(text, "the number of notes", SCALE_MAX_NOTES, &scale->n_notes)) {
+  if (!read_count(text, "the number of notes", SCALE_MAX_NOTES, &scale->n_notes) ||
+      !take_memory(text, scale)) {
     return false;
   }
   for (uint32_t i = 0; i < scale->n_notes; ++i) {
-    if (!read_pitch(text, i + 1, scale->n_notes, &scale->pitches[i])) {
+    if (!read_pitch(text, i + 1, scale->n_notes, &scale->memory[i])) {
       return false;
     }
   }
@@ -127,6 +143,10 @@ static bool take_entry(ScaleText* text, int32_t* degree) {
 
 static bool read_entries(ScaleText* text, ScaleMap* map) {
   bool is_there = true;
+  map->degrees = map->n_entries > 0 ? malloc(map->n_entries * sizeof(int32_t)) : NULL;
+  if (!map->degrees && map->n_entries > 0) {
+    return is_out_of_memory(text);
+  }
   for (uint32_t i = 0; i < map->n_entries; ++i) {
     is_there = is_there && scale_text_next_value(text);
     map->degrees[i] = SCALE_UNMAPPED;
@@ -138,13 +158,12 @@ static bool read_entries(ScaleText* text, ScaleMap* map) {
   return true;
 }
 
-static bool is_reference_mapped(const ScaleMap* map) {
-  const int32_t n_entries = (int32_t)map->n_entries;
-  if (n_entries == 0) {
-    return true;
+static bool has_degree(const ScaleMap* map) {
+  bool has = map->n_entries == 0;
+  for (uint32_t i = 0; i < map->n_entries && !has; ++i) {
+    has = map->degrees[i] != SCALE_UNMAPPED;
   }
-  const int32_t place = ((int32_t)map->reference_key - (int32_t)map->middle_key) % n_entries;
-  return map->degrees[place < 0 ? place + n_entries : place] != SCALE_UNMAPPED;
+  return has;
 }
 
 static bool read_map(ScaleText* text, ScaleMap* map) {
@@ -154,17 +173,16 @@ static bool read_map(ScaleText* text, ScaleMap* map) {
       !read_key(text, "the reference note", &map->reference_key)) {
     return false;
   }
-  ScaleText reference = *text;
   return read_hz(text, &map->reference_hz) && read_octave_degree(text, &map->octave_degree) &&
          read_entries(text, map) &&
-         (is_reference_mapped(map) ||
-          scale_text_fail(&reference, false, "a reference note that the mapping gives a degree"));
+         (has_degree(map) || scale_text_fail(text, true, "an entry that is a degree and not an x"));
 }
 
 Status scale_read(const char* text, size_t n_bytes, Scale* scale, ScaleError* error) {
   ScaleText place;
   Scale read = {.n_notes = 0};
   if (!scale_text_start(&place, text, n_bytes, error) || !read_scale(&place, &read)) {
+    scale_free(&read);
     return STATUS_BAD_TEXT;
   }
   *scale = read;
@@ -175,6 +193,7 @@ Status scale_map_read(const char* text, size_t n_bytes, ScaleMap* map, ScaleErro
   ScaleText place;
   ScaleMap read = {.n_entries = 0};
   if (!scale_text_start(&place, text, n_bytes, error) || !read_map(&place, &read)) {
+    scale_map_free(&read);
     return STATUS_BAD_TEXT;
   }
   *map = read;

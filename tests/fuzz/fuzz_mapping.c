@@ -29,7 +29,7 @@ static void claim_tuned(const ScaleMap* map) {
   scala_claim_tuned(&scale, map);
   FUZZ_CLAIM(!scale_read(fifths, sizeof(fifths) - 1, &scale, &error));
   scala_claim_tuned(&scale, map);
-  scale.n_notes = 0;
+  scale_free(&scale);
   scala_claim_tuned(&scale, map);
 }
 
@@ -48,5 +48,6 @@ void fuzz_one(const uint8_t* bytes, size_t n_bytes) {
   } else {
     claim_map(&map);
     claim_tuned(&map);
+    scale_map_free(&map);
   }
 }

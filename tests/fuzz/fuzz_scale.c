@@ -33,5 +33,6 @@ void fuzz_one(const uint8_t* bytes, size_t n_bytes) {
   } else {
     claim_scale(&scale);
     scala_claim_tuned(&scale, &map);
+    scale_free(&scale);
   }
 }

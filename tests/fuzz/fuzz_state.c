@@ -51,10 +51,9 @@ static LV2_State_Status store(LV2_State_Handle handle,
                               uint32_t flags) {
   State* const state = handle;
   const int i = index_of(state, key);
-  const bool is_path = n_bytes > 1;
   FUZZ_CLAIM(i < N_FILES && !state->is_saved[i]);
   FUZZ_CLAIM(n_bytes > 0 && strnlen(value, n_bytes) == n_bytes - 1);
-  FUZZ_CLAIM(type == plug_urid(is_path ? LV2_ATOM__Path : LV2_ATOM__String));
+  FUZZ_CLAIM(type == plug_urid(LV2_ATOM__Path));
   FUZZ_CLAIM(flags & LV2_STATE_IS_POD);
   state->is_saved[i] = true;
   return LV2_STATE_SUCCESS;

@@ -47,7 +47,7 @@ static void set_steps(Harp* harp, double step) {
   for (int key = 0; key < HARP_KEYS; ++key) {
     semitones[key] = step * (key - 69);
   }
-  harp_set_scale(harp, semitones);
+  harp_set_scale(harp, 0, semitones, true);
 }
 
 static void set_key(Harp* harp, int key, double semitones) {
@@ -56,7 +56,7 @@ static void set_key(Harp* harp, int key, double semitones) {
     scale[k] = k - 69;
   }
   scale[key] = semitones;
-  harp_set_scale(harp, scale);
+  harp_set_scale(harp, 0, scale, true);
 }
 
 static void run(Harp* harp, Sound* sound, uint32_t from, uint32_t to) {

@@ -5,6 +5,8 @@
 #include "tests/support/host_state.h"
 #include "tests/support/scale_host.h"
 
+#include <lv2/atom/atom.h>
+#include <lv2/state/state.h>
 #include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -38,9 +40,8 @@ static void save(Host* host, const ScalePath* directory) {
   assert_true(host_save_state_dir(host, directory->text));
 }
 
-/* Use one file of a test's own. */
-static void use_file(Host* host, const ScalePath* path) {
-  scale_set(host, SCALE_PARAMETER, path->text);
+static void use_file_as(Host* host, const char* parameter, const ScalePath* path) {
+  scale_set(host, parameter, path->text);
   assert_true(host_run(host, BLOCK) && host_run(host, BLOCK));
 }
 
@@ -78,7 +79,7 @@ static void a_session_may_move(void** state) {
   const ScalePath new = scale_new_directory();
   const ScalePath file = scale_write(&old, "fifths.scl", FIFTHS);
   Host* const before = strings_open(RATE, BLOCK);
-  use_file(before, &file);
+  use_file_as(before, SCALE_PARAMETER, &file);
   save(before, &old);
   host_free(before);
   assert_int_equal(rename(old.text, new.text), 0);
@@ -122,6 +123,14 @@ static void a_preset_of_ports_keeps_the_scale(void** state) {
   host_free(host);
 }
 
+static unsigned n_lines(const char* text, const char* word) {
+  unsigned n = 0;
+  for (const char* at = strstr(text, word); at; at = strstr(at + 1, word)) {
+    ++n;
+  }
+  return n;
+}
+
 static LilvState* state_of(Host* host, const char* properties) {
   char turtle[2 * SCALE_HOST_PATH];
   (void)snprintf(turtle, sizeof(turtle),
@@ -154,25 +163,140 @@ static void what_a_state_does_not_say_stays(void** state) {
                  scale_path(MAPPING).text);
   restore(host, properties);
   scale_assert_heard(host, SCALE, MAPPING);
-  restore(host, "<" SCALE_PARAMETER "> 12 ; <" MAPPING_PARAMETER "> \"x\"");
+  restore(host, "<" SCALE_PARAMETER "> 12 ; <" MAPPING_PARAMETER "> true");
   scale_assert_heard(host, SCALE, MAPPING);
   restore(host, "<" MAPPING_PARAMETER "> \"\"");
   scale_assert_heard(host, SCALE, NULL);
   host_free(host);
 }
 
+static void a_path_may_come_as_a_string(void** state) {
+  (void)state;
+  char properties[SCALE_HOST_PATH + 200];
+  Host* const host = strings_open(RATE, BLOCK);
+  (void)snprintf(properties, sizeof(properties), "<" SCALE_PARAMETER "> \"%s\"",
+                 scale_path(SCALE).text);
+  restore(host, properties);
+  scale_assert_heard(host, SCALE, NULL);
+  assert_told_scale(host, SCALE);
+  host_free(host);
+}
+
+/* A host as Carla: values of both, each with the type that was stored first. */
+typedef struct {
+  LV2_URID keys[2];
+  LV2_URID types[2];
+  char values[2][SCALE_HOST_PATH];
+} Keeper;
+
+static LV2_State_Status keep(LV2_State_Handle handle,
+                             uint32_t key,
+                             const void* value,
+                             size_t size,
+                             uint32_t type,
+                             uint32_t flags) {
+  Keeper* const keeper = handle;
+  const int i = key == keeper->keys[1];
+  (void)flags;
+  assert_int_equal(key, keeper->keys[i]);
+  assert_true(size <= SCALE_HOST_PATH);
+  memcpy(keeper->values[i], value, size);
+  keeper->types[i] = keeper->types[i] ? keeper->types[i] : type;
+  return LV2_STATE_SUCCESS;
+}
+
+static const void*
+bring_back(LV2_State_Handle handle, uint32_t key, size_t* size, uint32_t* type, uint32_t* flags) {
+  const Keeper* const keeper = handle;
+  const int i = key == keeper->keys[1];
+  *size = strlen(keeper->values[i]) + 1;
+  *type = keeper->types[i];
+  *flags = LV2_STATE_IS_POD;
+  return keeper->values[i];
+}
+
+static const LV2_State_Interface* state_interface(Host* host) {
+  return lilv_instance_get_extension_data(host_instance(host), LV2_STATE__interface);
+}
+
+/* It saves before a file is chosen, and again after; the types may be ours, or those of 0.2.0. */
+static void a_host_that_keeps_the_first_type_keeps_the_files(void** state) {
+  (void)state;
+  for (int is_old = 0; is_old < 2; ++is_old) {
+    Host* const host = strings_open(RATE, BLOCK);
+    Keeper keeper = {
+        {host_map(host, SCALE_PARAMETER), host_map(host, MAPPING_PARAMETER)}, {0}, {{0}}};
+    if (is_old) {
+      keeper.types[0] = keeper.types[1] = host_map(host, LV2_ATOM__String);
+    }
+    LV2_Handle plugin = lilv_instance_get_handle(host_instance(host));
+    const LV2_Feature* const none = NULL;
+    assert_int_equal(state_interface(host)->save(plugin, keep, &keeper, 0, &none), 0);
+    assert_int_equal(keeper.types[0], host_map(host, is_old ? LV2_ATOM__String : LV2_ATOM__Path));
+    scale_use(host, SCALE, MAPPING);
+    assert_int_equal(state_interface(host)->save(plugin, keep, &keeper, 0, &none), 0);
+    scale_use(host, "pythagorean.scl", NULL);
+    assert_int_equal(state_interface(host)->restore(plugin, bring_back, &keeper, 0, &none), 0);
+    assert_true(host_run(host, BLOCK));
+    scale_assert_heard(host, SCALE, MAPPING);
+    host_free(host);
+  }
+}
+
+/* Whoever makes a state may name any file, and the log may be read by others. */
+static void a_state_puts_no_word_of_a_file_into_the_log(void** state) {
+  (void)state;
+  static const char* const texts[] = {"secret\n", "1\nsecret\n", "name\n1\nsecret\n", "12\nsecret",
+                                      "12\n5\n127\n60\nsecret\n"};
+  const ScalePath directory = scale_new_directory();
+  Host* const host = strings_open(RATE, BLOCK);
+  for (size_t i = 0; i < 5; ++i) {
+    for (int is_mapping = 0; is_mapping < 2; ++is_mapping) {
+      char properties[SCALE_HOST_PATH + 200];
+      const ScalePath file = scale_write(&directory, i % 2 ? "a.kbm" : "passwd", texts[i]);
+      (void)snprintf(properties, sizeof(properties), "<%s> \"%s\"^^atom:Path",
+                     is_mapping ? MAPPING_PARAMETER : SCALE_PARAMETER, file.text);
+      scale_log_begin();
+      restore(host, properties);
+      char* const said = scale_log_end();
+      assert_int_equal(n_lines(said, "\n"), 1);
+      assert_int_equal(n_lines(said, file.text), 1);
+      assert_int_equal(n_lines(said, ": expected "), 1);
+      assert_int_equal(n_lines(said, "secret"), 0);
+      free(said);
+    }
+  }
+  host_free(host);
+  scale_remove_directory(&directory);
+}
+
+/* As it is chosen in Carla, which has one button alone: a mapping chosen as a scale leaves the
+ * scale where it is. */
+static void either_parameter_takes_either_file(void** state) {
+  (void)state;
+  const char* const parameters[] = {SCALE_PARAMETER, MAPPING_PARAMETER};
+  for (int i = 0; i < 2; ++i) {
+    const ScalePath scale = scale_path(SCALE);
+    const ScalePath mapping = scale_path(MAPPING);
+    const ScalePath directory = scale_new_directory();
+    Host* const host = strings_open(RATE, BLOCK);
+    use_file_as(host, parameters[i], &scale);
+    use_file_as(host, parameters[i], &mapping);
+    scale_assert_heard(host, SCALE, MAPPING);
+    assert_told_scale(host, SCALE);
+    save(host, &directory);
+    host_free(host);
+    Host* const after = open_session(&directory);
+    scale_assert_heard(after, SCALE, MAPPING);
+    host_free(after);
+    scale_remove_directory(&directory);
+  }
+}
+
 static char* log_of_session(const ScalePath* directory, Host** host) {
   scale_log_begin();
   *host = open_session(directory);
   return scale_log_end();
-}
-
-static unsigned n_lines(const char* text, const char* word) {
-  unsigned n = 0;
-  for (const char* at = strstr(text, word); at; at = strstr(at + 1, word)) {
-    ++n;
-  }
-  return n;
 }
 
 /* It is named once; meanwhile equal temperament; saved again nothing is lost. */
@@ -182,7 +306,7 @@ static void a_file_that_is_gone_may_come_back(void** state) {
   const ScalePath elsewhere = scale_new_directory();
   const ScalePath file = scale_write(&elsewhere, "fifths.scl", FIFTHS);
   Host* before = strings_open(RATE, BLOCK);
-  use_file(before, &file);
+  use_file_as(before, SCALE_PARAMETER, &file);
   scale_assert_pitch(before, 70, 660.0);
   save(before, &directory);
   host_free(before);
@@ -292,6 +416,10 @@ int main(void) {
       cmocka_unit_test(a_session_without_files_takes_them_away),
       cmocka_unit_test(a_preset_of_ports_keeps_the_scale),
       cmocka_unit_test(what_a_state_does_not_say_stays),
+      cmocka_unit_test(a_path_may_come_as_a_string),
+      cmocka_unit_test(a_host_that_keeps_the_first_type_keeps_the_files),
+      cmocka_unit_test(a_state_puts_no_word_of_a_file_into_the_log),
+      cmocka_unit_test(either_parameter_takes_either_file),
       cmocka_unit_test(a_file_that_is_gone_may_come_back),
       cmocka_unit_test(a_broken_file_is_named_with_its_line),
       cmocka_unit_test(it_may_be_restored_while_it_runs),

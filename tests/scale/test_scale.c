@@ -143,6 +143,7 @@ static void assert_tuned(const Known* known, const ScaleMap* map, double a4_hz) 
       fail_msg("%s, key %d: %.17g Hz, %g off", known->file, key, hz[key], error);
     }
   }
+  scale_free(&scale);
 }
 
 static void known_scales_sound_as_their_primes_say(void** state) {
@@ -172,6 +173,7 @@ static void a_map_takes_them_anywhere_on_the_keys(void** state) {
     for (size_t j = 0; j < sizeof(texts) / sizeof(*texts); ++j) {
       scala_map(texts[j], &map);
       assert_tuned(&knowns[i], &map, 440.0);
+      scale_map_free(&map);
     }
   }
 }
@@ -190,6 +192,8 @@ static void seven_notes_on_the_white_keys_leave_the_black_ones_silent(void** sta
   }
   assert_true(hz[69] == 440.0 && hz[60] == 264.0 && hz[64] == 330.0 && hz[72] == 528.0);
   assert_true(hz[59] == 247.5 && hz[48] == 132.0 && hz[0] == 8.25);
+  scale_free(&scale);
+  scale_map_free(&map);
 }
 
 int main(void) {

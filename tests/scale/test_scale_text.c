@@ -15,16 +15,36 @@
 
 #include <cmocka.h>
 
-static void assert_reads_alike(ScalaRead read, const char* text, const char* plain) {
-  static Scale zero;
-  static Scale out[2];
+static void read_well(ScalaRead read, const char* text, void* out) {
   ScaleError error;
-  out[0] = out[1] = zero;
-  assert_int_equal(scala_read_copy(read, plain, strlen(plain), &out[0], &error), STATUS_OK);
-  if (scala_read_copy(read, text, strlen(text), &out[1], &error)) {
+  if (scala_read_copy(read, text, strlen(text), out, &error)) {
     fail_msg("'%s': %u: found %s, expected %s", text, error.line, error.found, error.expected);
   }
-  assert_memory_equal(&out[0], &out[1], sizeof(out[0]));
+}
+
+static void assert_scales_read_alike(const char* text, const char* plain) {
+  Scale scales[2];
+  read_well(scala_read_scale, plain, &scales[0]);
+  read_well(scala_read_scale, text, &scales[1]);
+  assert_int_equal(scales[0].n_notes, scales[1].n_notes);
+  assert_memory_equal(scales[0].pitches, scales[1].pitches, scales[0].n_notes * sizeof(ScalePitch));
+  scale_free(&scales[0]);
+  scale_free(&scales[1]);
+}
+
+static void assert_maps_read_alike(const char* text, const char* plain) {
+  ScaleMap maps[2];
+  read_well(scala_read_map, plain, &maps[0]);
+  read_well(scala_read_map, text, &maps[1]);
+  const ScaleMap* const a = &maps[0];
+  const ScaleMap* const b = &maps[1];
+  assert_true(a->n_entries == b->n_entries && a->first_key == b->first_key);
+  assert_true(a->last_key == b->last_key && a->middle_key == b->middle_key);
+  assert_true(a->reference_key == b->reference_key && a->reference_hz == b->reference_hz);
+  assert_true(a->octave_degree == b->octave_degree);
+  assert_memory_equal(a->degrees, b->degrees, a->n_entries * sizeof(int32_t));
+  scale_map_free(&maps[0]);
+  scale_map_free(&maps[1]);
 }
 
 static void all_ways_of_writing_a_scale_read_alike(void** state) {
@@ -57,7 +77,7 @@ static void all_ways_of_writing_a_scale_read_alike(void** state) {
   };
   (void)state;
   for (size_t i = 0; i < sizeof(texts) / sizeof(*texts); ++i) {
-    assert_reads_alike(scala_read_scale, texts[i], plain);
+    assert_scales_read_alike(texts[i], plain);
   }
 }
 
@@ -73,7 +93,7 @@ static void all_ways_of_writing_a_map_read_alike(void** state) {
   };
   (void)state;
   for (size_t i = 0; i < sizeof(texts) / sizeof(*texts); ++i) {
-    assert_reads_alike(scala_read_map, texts[i], plain);
+    assert_maps_read_alike(texts[i], plain);
   }
 }
 
@@ -101,6 +121,8 @@ static void what_is_read_is_what_was_written(void** state) {
   assert_true(map.middle_key == 59 && map.reference_key == 70 && map.reference_hz == 431.25);
   assert_true(map.octave_degree == -11 && map.degrees[0] == -4);
   assert_true(map.degrees[1] == SCALE_UNMAPPED && map.degrees[2] == 1000000);
+  scale_free(&scale);
+  scale_map_free(&map);
 }
 
 /* Up to 15 digits, a whole number and a power of ten are exact, and there is one rounding. */
@@ -116,6 +138,7 @@ static void decimals_are_read_as_the_nearest_double(void** state) {
     (void)snprintf(text, sizeof(text), "\n1\n%#.*f", n_digits, cents);
     assert_int_equal(scale_read(text, strlen(text), &scale, &error), STATUS_OK);
     assert_true(scale.pitches[0].cents == strtod(text + 3, NULL));
+    scale_free(&scale);
   }
 }
 
@@ -134,29 +157,48 @@ static void long_numbers_and_lines_are_read(void** state) {
   assert_int_equal(scale_read(text, 4728, &scale, &error), STATUS_OK);
   assert_true(fabs(scale.pitches[0].cents - 701.9550008653874177) < 2e-13);
   assert_true(scale.pitches[1].over == 3.0 && scale.pitches[1].under == 2.0);
+  scale_free(&scale);
   memset(text + 2006, '9', 900);
   assert_int_equal(scale_read(text, 2900, &scale, &error), STATUS_BAD_TEXT);
   assert_string_equal(error.found, "'701999999999999999999999999999999999999999999999...'");
 }
 
+/* The longest map, and a scale as long as a text has room for. */
 static void the_largest_scale_and_map_are_read_whole(void** state) {
-  static char text[20000];
-  static Scale scale;
-  static ScaleMap map;
+  enum { N_NOTES = (SCALE_MAX_BYTES - 16) / 2 };
+  char* const text = malloc(SCALE_MAX_BYTES);
+  Scale scale;
+  ScaleMap map;
   ScaleError error;
-  size_t n = (size_t)sprintf(text, "\n%d\n", SCALE_MAX_NOTES);
   (void)state;
-  for (int i = 1; i <= SCALE_MAX_NOTES; ++i) {
-    n += (size_t)sprintf(text + n, "%d.\n", i);
+  assert_non_null(text);
+  size_t n = (size_t)sprintf(text, "\n%d\n", N_NOTES);
+  for (int i = 1; i <= N_NOTES; ++i) {
+    text[n++] = i % 2 ? '3' : '5';
+    text[n++] = '\n';
   }
   assert_int_equal(scale_read(text, n, &scale, &error), STATUS_OK);
-  assert_true(scale.pitches[SCALE_MAX_NOTES - 1].cents == SCALE_MAX_NOTES);
+  assert_int_equal(scale.n_notes, N_NOTES);
+  assert_true(scale.pitches[N_NOTES - 1].over == 5.0 && scale.pitches[N_NOTES - 2].over == 3.0);
+  scale_free(&scale);
   n = (size_t)sprintf(text, "%d\n0\n127\n0\n0\n440\n0\n", SCALE_MAX_PATTERN);
   for (int i = 0; i < SCALE_MAX_PATTERN; ++i) {
     n += (size_t)sprintf(text + n, "%d\n", i);
   }
   assert_int_equal(scale_map_read(text, n, &map, &error), STATUS_OK);
   assert_int_equal(map.degrees[SCALE_MAX_PATTERN - 1], SCALE_MAX_PATTERN - 1);
+  scale_map_free(&map);
+  free(text);
+}
+
+/* A number of notes that the text has no room for costs no memory. */
+static void a_promise_of_notes_takes_no_memory(void** state) {
+  static const char text[] = "name\n8388608\n3/2\n";
+  Scale scale;
+  ScaleError error;
+  (void)state;
+  assert_int_equal(scale_read(text, strlen(text), &scale, &error), STATUS_BAD_TEXT);
+  assert_string_equal(error.found, "the end of the text");
 }
 
 static const char* const seeds[] = {
@@ -230,8 +272,11 @@ static void ten_thousand_broken_texts_do_no_harm(void** state) {
       n = mutate(&random, text, n);
     }
     memset(&error, 0, sizeof(error));
-    const Status status = seed < 3 ? scala_read_copy(scala_read_scale, text, n, &scale, &error)
-                                   : scala_read_copy(scala_read_map, text, n, &map, &error);
+    Scale new_scale;
+    ScaleMap new_map;
+    const bool is_scale = seed < 3;
+    const Status status = is_scale ? scala_read_copy(scala_read_scale, text, n, &new_scale, &error)
+                                   : scala_read_copy(scala_read_map, text, n, &new_map, &error);
     if (status) {
       assert_int_equal(status, STATUS_BAD_TEXT);
       assert_is_good_error(&error, text, n);
@@ -239,12 +284,21 @@ static void ten_thousand_broken_texts_do_no_harm(void** state) {
       continue;
     }
     ++n_read;
+    if (is_scale) {
+      scale_free(&scale);
+      scale = new_scale;
+    } else {
+      scale_map_free(&map);
+      map = new_map;
+    }
     assert_int_equal(scale_tune(&scale, &map, 440.0, hz), STATUS_OK);
     for (int key = 0; key < SCALE_KEYS; ++key) {
       assert_true(isnan(hz[key]) || (hz[key] >= SCALE_MIN_HZ && hz[key] <= SCALE_MAX_HZ));
     }
   }
   assert_true(n_read > 1000 && n_refused > 1000);
+  scale_free(&scale);
+  scale_map_free(&map);
 }
 
 int main(void) {
@@ -255,6 +309,7 @@ int main(void) {
       cmocka_unit_test(decimals_are_read_as_the_nearest_double),
       cmocka_unit_test(long_numbers_and_lines_are_read),
       cmocka_unit_test(the_largest_scale_and_map_are_read_whole),
+      cmocka_unit_test(a_promise_of_notes_takes_no_memory),
       cmocka_unit_test(ten_thousand_broken_texts_do_no_harm),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -41,6 +43,8 @@ static void a_maps_frequency_holds_at_440_and_follows_a4(void** state) {
   assert_true(hz[60] == 261.625565 / 2.0);
   assert_int_equal(scale_tune(&scale, &map, 415.3, hz), STATUS_OK);
   assert_true(fabs(hz[60] / (261.625565 * 415.3 / 440.0) - 1.0) < 2.0 * DBL_EPSILON);
+  scale_free(&scale);
+  scale_map_free(&map);
 }
 
 static void octaves_of_ratios_double_to_the_last_bit(void** state) {
@@ -54,6 +58,7 @@ static void octaves_of_ratios_double_to_the_last_bit(void** state) {
   for (int key = 12; key < SCALE_KEYS; ++key) {
     assert_true(hz[key] == 2.0 * hz[key - 12]);
   }
+  scale_free(&scale);
 }
 
 static void keys_that_are_not_retuned_keep_equal_temperament(void** state) {
@@ -68,6 +73,8 @@ static void keys_that_are_not_retuned_keep_equal_temperament(void** state) {
     const double equal_hz = 430.0 * exp2((key - 69.0) / 12.0);
     assert_int_equal(hz[key] == equal_hz, key < 40 || key > 80);
   }
+  scale_free(&scale);
+  scale_map_free(&map);
 }
 
 static void the_next_pattern_uses_notes_of_the_scale(void** state) {
@@ -83,6 +90,8 @@ static void the_next_pattern_uses_notes_of_the_scale(void** state) {
   assert_true(hz[67] == 512.0);
   assert_true(hz[70] == 256.0 * 2.0 * 729.0 / 512.0);
   assert_true(hz[56] == 256.0 / 2.0 * 4.0 / 3.0);
+  scale_free(&scale);
+  scale_map_free(&map);
 }
 
 static void a_scale_of_no_notes_is_a_unison(void** state) {
@@ -100,6 +109,8 @@ static void a_scale_of_no_notes_is_a_unison(void** state) {
   scala_map("2\n0\n127\n60\n60\n100\n0\n0\nx\n", &map);
   assert_int_equal(scale_tune(&scale, &map, 440.0, hz), STATUS_OK);
   assert_true(hz[60] == 100.0 && isnan(hz[61]) && hz[0] == 100.0 && isnan(hz[127]));
+  scale_free(&scale);
+  scale_map_free(&map);
 }
 
 /* A ratio that doubles cannot hold, raised to 127: without its lost part it were 60 roundings off.
@@ -118,6 +129,8 @@ static void a_high_power_of_a_ratio_stays_true(void** state) {
     assert_true((double)fabsl((long double)hz[key] / expected_hz - 1.0L) <=
                 3.0 * (DBL_EPSILON / 2.0));
   }
+  scale_free(&scale);
+  scale_map_free(&map);
 }
 
 static void a_pitch_out_of_range_is_silent(void** state) {
@@ -138,6 +151,7 @@ static void a_pitch_out_of_range_is_silent(void** state) {
     }
     assert_true(hz[69] == 440.0);
     assert_true(n_heard >= 1 && n_heard <= 2);
+    scale_free(&scale);
   }
 }
 
@@ -157,6 +171,99 @@ static void the_ends_of_the_range_sound(void** state) {
   assert_true(hz[0] == 1e-3);
   assert_int_equal(scale_tune(&scale, &map, 439.9, hz), STATUS_OK);
   assert_true(isnan(hz[0]) && !isnan(hz[1]));
+  scale_map_free(&map);
+}
+
+/* Equal steps to the octave as a text, in cents. */
+static char* equal_text(int n_steps) {
+  char* const text = malloc(32 * (size_t)n_steps + 64);
+  assert_non_null(text);
+  size_t n = (size_t)sprintf(text, "equal steps\n%d\n", n_steps);
+  for (int i = 1; i <= n_steps; ++i) {
+    n += (size_t)sprintf(text + n, "%.10f\n", i * 1200.0 / n_steps);
+  }
+  return text;
+}
+
+static void a_scale_of_any_length_tunes_all_keys(void** state) {
+  static const int lengths[] = {1200, 1848, 3558, 3600, 100000};
+  (void)state;
+  for (size_t i = 0; i < sizeof(lengths) / sizeof(*lengths); ++i) {
+    char* const text = equal_text(lengths[i]);
+    Scale scale;
+    ScaleMap map;
+    double hz[SCALE_KEYS];
+    scala_scale(text, &scale);
+    scale_map_linear(&map);
+    assert_int_equal(scale_tune(&scale, &map, 440.0, hz), STATUS_OK);
+    for (int key = 0; key < SCALE_KEYS; ++key) {
+      assert_true(fabs(hz[key] / (440.0 * exp2((key - 69.0) / lengths[i])) - 1.0) < 1e-12);
+    }
+    scale_free(&scale);
+    free(text);
+  }
+}
+
+/* A third of the octave to each key, which no key comes near without a map. */
+static void a_map_reaches_all_notes_of_a_long_scale(void** state) {
+  char* const text = equal_text(3558);
+  Scale scale;
+  ScaleMap map;
+  double hz[SCALE_KEYS];
+  (void)state;
+  scala_scale(text, &scale);
+  scala_map("3\n0\n127\n60\n60\n261.6\n3558\n0\n1186\n2372\n", &map);
+  assert_int_equal(scale_tune(&scale, &map, 440.0, hz), STATUS_OK);
+  for (int key = 40; key < 80; ++key) {
+    assert_true(fabs(hz[key] / (261.6 * exp2((key - 60.0) / 3.0)) - 1.0) < 1e-12);
+  }
+  scale_free(&scale);
+  scale_map_free(&map);
+  free(text);
+}
+
+/* Twelve equal notes; key 69, which has 440 Hz, is left out. */
+static void a_reference_without_a_degree_lies_between_its_neighbours(void** state) {
+  static const struct {
+    const char* text;
+    double semitones; // Of key 69 above key 59
+  } maps[] = {
+      {"12\n0\n127\n59\n69\n440\n12\n0\nx\n2\nx\n4\n5\nx\n7\nx\n9\nx\n11\n", 10.0},
+      {"12\n0\n127\n59\n69\n440\n12\n0\nx\n1\nx\n2\n3\nx\n4\nx\n5\nx\n6\n", 5.5},
+      {"11\n0\n127\n59\n69\n440\n12\n0\nx\n2\nx\n4\n5\nx\n7\n\n\n", (7.0 + 12.0) / 2.0},
+      {"8\n0\n127\n60\n69\n440\n12\nx\nx\nx\n4\nx\nx\nx\n-1\n", (-1.0 + 16.0) / 2.0 + 13.0},
+      {"1000000\n0\n127\n59\n69\n440\n24\n0\n", 12.0},
+  };
+  Scale scale;
+  (void)state;
+  scale_equal(&scale);
+  for (size_t i = 0; i < sizeof(maps) / sizeof(*maps); ++i) {
+    ScaleMap map;
+    double hz[SCALE_KEYS];
+    scala_map(maps[i].text, &map);
+    assert_int_equal(scale_tune(&scale, &map, 440.0, hz), STATUS_OK);
+    assert_true(isnan(hz[69]));
+    assert_true(fabs(hz[59] / (440.0 * exp2(-maps[i].semitones / 12.0)) - 1.0) < 1e-12);
+    scale_map_free(&map);
+  }
+}
+
+static void white_keys_from_key_59_put_it_at_b(void** state) {
+  static const char keys[] = "12\n0\n127\n59\n69\n440\n7\n0\nx\n1\nx\n2\n3\nx\n4\nx\n5\nx\n6\n";
+  Scale scale;
+  ScaleMap map;
+  double hz[SCALE_KEYS];
+  (void)state;
+  scala_scale("major\n7\n200.\n400.\n500.\n700.\n900.\n1100.\n2/1\n", &scale);
+  scala_map(keys, &map);
+  assert_int_equal(scale_tune(&scale, &map, 440.0, hz), STATUS_OK);
+  assert_true(fabs(hz[59] - 246.9416506) < 1e-6);
+  scale_free(&scale);
+  scala_scale("just\n7\n9/8\n5/4\n4/3\n3/2\n5/3\n15/8\n2/1\n", &scale);
+  assert_int_equal(scale_tune(&scale, &map, 440.0, hz), STATUS_OK);
+  assert_true(fabs(hz[59] * sqrt(5.0 / 3.0 * 15.0 / 8.0) - 440.0) < 1e-9);
+  scale_free(&scale);
+  scale_map_free(&map);
 }
 
 static void assert_refused(const Scale* scale, const ScaleMap* map, double a4_hz) {
@@ -176,9 +283,9 @@ static void nonsense_is_refused(void** state) {
   (void)state;
   scale_equal(&scale);
   scale_map_linear(&good);
+  int32_t degrees[] = {0, 1};
   good.n_entries = 2;
-  good.degrees[0] = 0;
-  good.degrees[1] = 1;
+  good.degrees = degrees;
   double hz[SCALE_KEYS];
   assert_int_equal(scale_tune(&scale, &good, 440.0, hz), STATUS_OK);
   const double bad_hz[] = {0.0, -440.0, (double)NAN, (double)INFINITY, (double)-INFINITY};
@@ -193,6 +300,8 @@ static void nonsense_is_refused(void** state) {
     ScaleMap map = good;                                                                           \
     map.field = (value);                                                                           \
     assert_refused(&scale, &map, 440.0);                                                           \
+    degrees[0] = 0;                                                                                \
+    degrees[1] = 1;                                                                                \
   } while (0)
   REFUSED(n_entries, SCALE_MAX_PATTERN + 1);
   REFUSED(first_key, 128);
@@ -205,8 +314,9 @@ static void nonsense_is_refused(void** state) {
   REFUSED(octave_degree, -SCALE_MAX_DEGREE - 1);
   REFUSED(degrees[0], SCALE_MAX_DEGREE + 1);
   REFUSED(degrees[1], -SCALE_MAX_DEGREE - 1);
-  REFUSED(degrees[1], SCALE_UNMAPPED); // Of key 69
 #undef REFUSED
+  degrees[0] = degrees[1] = SCALE_UNMAPPED;
+  assert_refused(&scale, &good, 440.0);
   good.first_key = 60;
   good.last_key = 59;
   assert_refused(&scale, &good, 440.0);
@@ -226,6 +336,10 @@ int main(void) {
       cmocka_unit_test(a_high_power_of_a_ratio_stays_true),
       cmocka_unit_test(a_pitch_out_of_range_is_silent),
       cmocka_unit_test(the_ends_of_the_range_sound),
+      cmocka_unit_test(a_scale_of_any_length_tunes_all_keys),
+      cmocka_unit_test(a_map_reaches_all_notes_of_a_long_scale),
+      cmocka_unit_test(a_reference_without_a_degree_lies_between_its_neighbours),
+      cmocka_unit_test(white_keys_from_key_59_put_it_at_b),
       cmocka_unit_test(nonsense_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -45,5 +45,5 @@ GuitarRecord* guitar_record_new(void) {
 }
 
 GuitarSeat guitar_record_seat(GuitarRecord* record, double rate_hz) {
-  return (GuitarSeat){record, rate_hz, act, is_awake, run};
+  return (GuitarSeat){record, rate_hz, act, is_awake, run, NULL};
 }

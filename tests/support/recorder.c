@@ -46,8 +46,13 @@ static void seat(void* recorder, uint32_t channel, uint32_t number) {
   note(recorder, RECORD_SEAT, channel, 0, number);
 }
 
+static void
+tune(void* recorder, uint32_t channel, const double semitones[PERFORMANCE_KEYS], bool is_live) {
+  note(recorder, RECORD_TUNE, channel, is_live, semitones[69]);
+}
+
 Performance recorder_performance(Recorder* recorder) {
-  static const PerformanceKind kind = {note_on, note_off,      gesture,       press_key,
-                                       let_go,  all_notes_off, all_sound_off, seat};
+  static const PerformanceKind kind = {note_on,       note_off,      gesture, press_key, let_go,
+                                       all_notes_off, all_sound_off, seat,    tune};
   return (Performance){&kind, recorder};
 }

@@ -16,7 +16,8 @@ typedef enum {
   RECORD_LET_GO,
   RECORD_ALL_NOTES_OFF,
   RECORD_ALL_SOUND_OFF,
-  RECORD_SEAT
+  RECORD_SEAT,
+  RECORD_TUNE /**< `value`: pitch of A4 in semitones; `key`: whether it is live */
 } RecordVerb;
 
 /** Something that was done. */

@@ -155,8 +155,8 @@ bool scale_told_change(Host* host) {
 }
 
 void scale_expected(const char* scale, const char* mapping, double a4_hz, double hz[128]) {
-  static Scale read_scale;
-  static ScaleMap read_map;
+  Scale read_scale;
+  ScaleMap read_map;
   scale_equal(&read_scale);
   scale_map_linear(&read_map);
   if (scale) {
@@ -166,6 +166,8 @@ void scale_expected(const char* scale, const char* mapping, double a4_hz, double
     scala_map_file(mapping, &read_map);
   }
   assert_int_equal(scale_tune(&read_scale, &read_map, a4_hz, hz), STATUS_OK);
+  scale_free(&read_scale);
+  scale_map_free(&read_map);
 }
 
 void scale_assert_pitch(Host* host, uint32_t key, double hz) {

@@ -263,6 +263,32 @@ help_and_version_are_answers() {
     "$HOOKE_BIN" render --help | grep -q '^usage: hooke render' || fail "render --help is no help"
 }
 
+# A mapping that is equal temperament changes no bit; one that leaves key 60 out makes it silent; a scale is another sound.
+# Which of both a file is, it says itself.
+files_tune_both_instruments() {
+    printf '0\n0\n127\n60\n69\n440\n0\n' >equal.kbm
+    printf '2\n0\n127\n60\n61\n440\n1\nx\n0\n' >odd.kbm
+    for plugin in strings guitar; do
+        render --plugin urn:hooke:$plugin note.mid out/none.wav || return
+        render --plugin urn:hooke:$plugin --mapping equal.kbm note.mid out/equal.wav || return
+        render --plugin urn:hooke:$plugin --scale "$HOOKE_SOURCE/tests/scales/19-equal.scl" note.mid out/scale.wav || return
+        render --plugin urn:hooke:$plugin --mapping "$HOOKE_SOURCE/tests/scales/19-equal.scl" note.mid out/other.wav || return
+        cmp out/none.wav out/equal.wav || fail "$plugin: a mapping of equal temperament is heard"
+        cmp out/scale.wav out/other.wav || fail "$plugin: a scale is none as a mapping"
+        ! cmp -s out/none.wav out/scale.wav || fail "$plugin: no scale is heard"
+        render --plugin urn:hooke:$plugin --tail 0 --mapping odd.kbm note.mid out/odd.wav || return
+        grep -q 'silent' log || fail "$plugin: key 60 sounds: $(cat log)"
+    done
+}
+
+broken_scales_are_refused() {
+    printf 'two\n2\n3/2\nsecond\n' >broken.scl
+    refuse 1 "broken.scl:4: found 'second', expected pitch 2 of 2" render --scale broken.scl note.mid out/a.wav
+    refuse 1 'nowhere.scl:1: found no text (No such file or directory)' render --scale nowhere.scl note.mid out/a.wav
+    refuse 2 'found --scale for a scene' render --scale broken.scl a.scene out/a.wav
+    test ! -e out/a.wav || fail "a broken scale leaves a sound"
+}
+
 the_demo_is_music() {
     render --tail 1 --rate 16000 "$HOOKE_SOURCE/doc/demo.mid" out/demo.wav || return
     grep -q 'peak' log || fail "the demo is silent: '$(cat log)'"
@@ -292,6 +318,8 @@ for claim in \
     a_failure_leaves_the_old_file_alone \
     the_plugin_beside_the_program_is_found \
     help_and_version_are_answers \
+    files_tune_both_instruments \
+    broken_scales_are_refused \
     the_demo_is_music; do
     echo "$claim"
     rm -rf out

@@ -1,4 +1,5 @@
 #include "core/analysis/modes.h"
+#include "plugin/tuner_file.h"
 #include "tools/commands/args.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/near_miss.h"
@@ -40,6 +41,8 @@ const char render_help[] =
     "  --preset NAME       start from a preset, by its name or URI; a score's own is not loaded\n"
     "  --set SYMBOL=VALUE  set a control, by a number or a name such as bow or off, after the\n"
     "                      preset and what a score sets; may be repeated\n"
+    "  --scale FILE        tune the keys to a Scala file (.scl); of hooke's own plugins\n"
+    "  --mapping FILE      map them by a Scala file (.kbm)\n"
     "  --block N           frames in a block, 256 by default\n"
     "  --tail S            seconds after the end; auto, the default: until it has died away by\n"
     "                      80 dB, at most a minute\n"
@@ -72,10 +75,11 @@ typedef struct {
   Args args;
   const char* in;
   const char* out;
-  Kind kind;          /* Of `in` */
-  const char* preset; /* NULL: none */
-  const char* plugin; /* Its URI */
-  const char** sets;  /* In the order given */
+  Kind kind;                         /* Of `in` */
+  const char* preset;                /* NULL: none */
+  const char* plugin;                /* Its URI */
+  const char* tuning[TUNER_N_FILES]; /* NULL: none */
+  const char** sets;                 /* In the order given */
   size_t n_sets;
   long rate_hz;            /* 0: the usual one */
   long block;              /* [frames] */
@@ -106,7 +110,9 @@ enum {
   QUIET,
   ANYWAY,
   GAIN,
-  NORMALIZE
+  NORMALIZE,
+  SCALE,
+  MAPPING
 };
 
 static const struct option options[] = {{"preset", required_argument, NULL, PRESET},
@@ -122,6 +128,8 @@ static const struct option options[] = {{"preset", required_argument, NULL, PRES
                                         {"anyway", no_argument, NULL, ANYWAY},
                                         {"gain", required_argument, NULL, GAIN},
                                         {"normalize", optional_argument, NULL, NORMALIZE},
+                                        {"scale", required_argument, NULL, SCALE},
+                                        {"mapping", required_argument, NULL, MAPPING},
                                         {0}};
 
 static bool has_ending(const char* path, const char* ending) {
@@ -220,6 +228,12 @@ static bool take_option(Render* self, int found) {
     return true;
   case LIST_CONTROLS:
     return self->lists_controls = true;
+  case SCALE:
+    self->tuning[TUNER_SCALE] = value;
+    return true;
+  case MAPPING:
+    self->tuning[TUNER_MAPPING] = value;
+    return true;
   default:
     return self->lists_presets = true;
   }
@@ -355,6 +369,34 @@ static int load_preset(const Render* self, const Score* score, Host* host) {
                    hint_at_preset(host, name, hint));
 }
 
+/* The plugin plays on without a file that is not as it should be; who asked for it is to know. */
+static bool is_good_file(const Render* self, TunerFile file) {
+  TunerContent content;
+  TunerFault fault;
+  tuner_file_read(self->tuning[file], file, true, &content, &fault);
+  scale_free(&content.scale);
+  scale_map_free(&content.map);
+  return content.is_good || args_fail(&self->args, false, "%s", fault.line);
+}
+
+static int tune(const Render* self, Host* host) {
+  static const char* const names[] = {"scale", "mapping"};
+  for (int f = 0; f < TUNER_N_FILES; ++f) {
+    char parameter[256];
+    if (!self->tuning[f]) {
+      continue;
+    }
+    if (!is_good_file(self, (TunerFile)f)) {
+      return ARGS_FAILURE;
+    }
+    (void)snprintf(parameter, sizeof(parameter), "%s#%s", self->plugin, names[f]);
+    if (!host_set_file(host, parameter, self->tuning[f])) {
+      return args_fail(&self->args, ARGS_USAGE, "--%s: %s", names[f], host_error(host));
+    }
+  }
+  return ARGS_OK;
+}
+
 static int prepare(const Render* self, const Score* score, Host* host) {
   if (score && !host_takes(host, GUITAR_EVENT_URI)) {
     return args_fail(&self->args, ARGS_USAGE,
@@ -375,7 +417,7 @@ static int prepare(const Render* self, const Score* score, Host* host) {
       return ARGS_USAGE;
     }
   }
-  return ARGS_OK;
+  return tune(self, host);
 }
 
 static int play_with_host(const Render* self, PlaySong song, const Score* score) {

@@ -128,6 +128,14 @@ bool host_midi_raw(Host* host, int64_t frame, const uint8_t* bytes, uint32_t siz
 /** Queue any atom, as host_midi() does; `body` has `size` bytes of the type `type_uri`. */
 bool host_atom(Host* host, uint32_t frame, const char* type_uri, const void* body, uint32_t size);
 
+/**
+   Give a parameter of the plugin's that is a file another path, and run no frame, so that the
+   worker has read it when the next run begins.
+
+   @return false if the plugin has no such parameter, the path is too long, or memory is out.
+*/
+bool host_set_file(Host* host, const char* parameter_uri, const char* path);
+
 /** @return The number of a URI; 0 when memory is out. */
 LV2_URID host_map(Host* host, const char* uri);
 

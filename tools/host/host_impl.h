@@ -96,6 +96,11 @@ struct Host {
 /** Set host_error(). @return false, so that a caller may return it. */
 __attribute__((format(printf, 2, 3))) bool host_fail(Host* host, const char* format, ...);
 
+/** Queue an event; a raw one goes out with the next run, of no frames too.  @return false when
+ * memory is out or no port takes events. */
+bool host_queue(
+    Host* host, int64_t frame, LV2_URID type, const void* body, uint32_t size, bool is_raw);
+
 /** Read the plugin's ports and allocate for them. @return false when memory is out. */
 bool host_make_ports(Host* host);
 

@@ -16,8 +16,8 @@ static bool is_due(const HostQueued* event, uint32_t n_frames) {
   return event->is_raw || event->frame < (int64_t)n_frames;
 }
 
-/* Put an event behind all that are not later, but never behind a raw one; those stay last. */
-static bool queue_event(
+/* Behind all that are not later, but never behind a raw one; those stay last. */
+bool host_queue(
     Host* host, int64_t frame, LV2_URID type, const void* body, uint32_t size, bool is_raw) {
   const HostQueued event = {frame, type, size, host->bodies.size, is_raw};
   if (host->events_in == UINT32_MAX) {
@@ -161,13 +161,13 @@ bool host_run(Host* host, uint32_t n_frames) {
 }
 
 bool host_midi(Host* host, uint32_t frame, const uint8_t* bytes, uint32_t size) {
-  return queue_event(host, frame, host_map(host, LV2_MIDI__MidiEvent), bytes, size, false);
+  return host_queue(host, frame, host_map(host, LV2_MIDI__MidiEvent), bytes, size, false);
 }
 
 bool host_midi_raw(Host* host, int64_t frame, const uint8_t* bytes, uint32_t size) {
-  return queue_event(host, frame, host_map(host, LV2_MIDI__MidiEvent), bytes, size, true);
+  return host_queue(host, frame, host_map(host, LV2_MIDI__MidiEvent), bytes, size, true);
 }
 
 bool host_atom(Host* host, uint32_t frame, const char* type_uri, const void* body, uint32_t size) {
-  return queue_event(host, frame, host_map(host, type_uri), body, size, false);
+  return host_queue(host, frame, host_map(host, type_uri), body, size, false);
 }
