@@ -1,10 +1,10 @@
 #include "core/analysis/modes.h"
 
-#include "core/analysis/modes_band.h"
 #include "core/analysis/modes_few.h"
 #include "core/analysis/modes_frame.h"
 #include "core/analysis/modes_general.h"
 #include "core/analysis/modes_match.h"
+#include "core/analysis/modes_step.h"
 #include "core/analysis/modes_symmetric.h"
 #include "core/base/complex_of.h"
 #include "core/base/maths.h"
@@ -242,18 +242,6 @@ static Status solve_frame(const Frame* frame, Modes* modes, Modes** out) {
   return STATUS_OK;
 }
 
-static Status largest_step(const Frame* frame, double* step_s) {
-  Band band;
-  double* const space = malloc(4 * (size_t)frame->n * sizeof(double));
-  Status status = space ? band_init(&band, frame) : STATUS_NO_MEMORY;
-  if (!status) {
-    *step_s = band_largest_step(&band, frame, space);
-    band_clear(&band);
-  }
-  free(space);
-  return status;
-}
-
 Status modes_solve(const Network* network, double rate_hz, uint32_t n_wanted, Modes** modes) {
   if (!(rate_hz > 0.0) || !isfinite(rate_hz) || !network->is_checked) {
     return STATUS_BAD_ARGUMENT;
@@ -267,7 +255,7 @@ Status modes_solve(const Network* network, double rate_hz, uint32_t n_wanted, Mo
   if (status) {
     return status;
   }
-  status = largest_step(&frame, &step_s);
+  status = step_find(&frame, NULL, &step_s);
   Modes* const found = status ? NULL : calloc(1, sizeof(Modes) + n_modes * sizeof(Mode));
   if (found) {
     found->rate_hz = rate_hz;
@@ -287,12 +275,12 @@ void modes_free(Modes* modes) {
   free(modes);
 }
 
-Status modes_largest_step(const Network* network, double* step_s) {
+Status modes_largest_step(const Network* network, const ModesWatch* watch, double* step_s) {
   Frame frame;
   Status status = network->is_checked ? network_find_free(network, NULL) : STATUS_BAD_ARGUMENT;
   status = status ? status : frame_init(&frame, network);
   if (!status) {
-    status = largest_step(&frame, step_s);
+    status = step_find(&frame, watch, step_s);
     frame_clear(&frame);
   }
   return status;

@@ -30,6 +30,7 @@
 #ifndef HOOKE_CORE_ANALYSIS_MODES_H
 #define HOOKE_CORE_ANALYSIS_MODES_H
 
+#include "core/analysis/modes_watch.h"
 #include "core/analysis/network.h"
 #include "core/base/status.h"
 #include "core/string/pole.h"
@@ -91,10 +92,11 @@ void modes_free(Modes* modes);
    Find the largest time step with which a checked network is stable: the least positive root of
    det(4M − 2h Z − h² K).  Exact to a few roundings, however the network is scaled and damped.
 
+   @param watch        Told of what is done; NULL: nobody
    @param[out] step_s  [s]; untouched on failure
    @return STATUS_OK; STATUS_BAD_ARGUMENT (not checked); STATUS_FREE; STATUS_ILL_SCALED (k/m or Z/m
    is no number); STATUS_NO_MEMORY
 */
-Status modes_largest_step(const Network* network, double* step_s);
+Status modes_largest_step(const Network* network, const ModesWatch* watch, double* step_s);
 
 #endif

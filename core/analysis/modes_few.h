@@ -5,9 +5,9 @@
 
        A⁻¹ (f, g) = (−K̂⁻¹ (g + Ẑ f) − h f,  f)
 
-   with the band of K̂ (core/analysis/modes_band.h), kept orthonormal in energy, and A⁻¹ is looked at
-   on that subspace only, where it is small and dense; the values are had anew from their shapes
-   (core/analysis/modes_general.h).
+   with the factor of K̂ (core/analysis/modes_sparse.h), kept orthonormal in energy, and A⁻¹ is
+   looked at on that subspace only, where it is small and dense; the values are had anew from their
+   shapes (core/analysis/modes_general.h).
 
    Part of core/analysis/modes.
 */

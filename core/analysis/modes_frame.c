@@ -209,6 +209,15 @@ FrameForms frame_forms(const Frame* frame, const double complex* y) {
   return forms;
 }
 
+double frame_stiffness(const Frame* frame, const double* y) {
+  double sum = 0.0;
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const double length = stretch(frame, frame->link[l], y);
+    sum += frame->link[l].k * length * length;
+  }
+  return sum;
+}
+
 double frame_damping(const Frame* frame, const double* y) {
   double sum = 0.0;
   for (uint32_t l = 0; l < frame->n_links; ++l) {

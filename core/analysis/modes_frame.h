@@ -50,7 +50,8 @@ typedef struct {
  * exact to a few roundings. */
 FrameForms frame_forms(const Frame* frame, const double complex* y);
 
-/** yᵀ Ẑ y of a real y, in the same way. */
+/** yᵀ K̂ y and yᵀ Ẑ y of a real y, in the same way. */
+double frame_stiffness(const Frame* frame, const double* y);
 double frame_damping(const Frame* frame, const double* y);
 
 /** Add Ẑ y of a real y to `sum`, n. */

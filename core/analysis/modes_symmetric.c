@@ -1,7 +1,7 @@
 #include "core/analysis/modes_symmetric.h"
 
-#include "core/analysis/modes_band.h"
 #include "core/analysis/modes_lapack.h"
+#include "core/analysis/modes_sparse.h"
 
 #include <float.h>
 #include <math.h>
@@ -171,11 +171,11 @@ static double change(const Subspace* sub, uint32_t n_wanted) {
   return largest;
 }
 
-static Status iterate(Subspace* sub, const Band* band, uint32_t n_wanted, double* space) {
+static Status iterate(Subspace* sub, const Sparse* sparse, uint32_t n_wanted, double* space) {
   double last = HUGE_VAL;
   scatter(sub);
   for (int round = 0; round < MOST_ROUNDS; ++round) {
-    band_solve(band, sub->n_vectors, sub->vectors, space);
+    sparse_solve(sparse, sub->n_vectors, sub->vectors, space);
     orthonormalise(sub);
     memcpy(sub->before, sub->omega, sub->n_vectors * sizeof(double));
     const Status status = turn(sub);
@@ -190,14 +190,14 @@ static Status iterate(Subspace* sub, const Band* band, uint32_t n_wanted, double
 
 /* The lowest ω and shapes of many masses, falling, n_wanted of the subspace's. */
 static Status solve_few(Subspace* sub, uint32_t n_wanted) {
-  Band band;
+  Sparse sparse;
   double* const space = malloc(sub->frame->n * sizeof(double));
-  Status status = space ? band_init(&band, sub->frame) : STATUS_NO_MEMORY;
+  Status status = space ? sparse_init(&sparse, sub->frame) : STATUS_NO_MEMORY;
   if (!status) {
-    band_fill(&band, sub->frame, 0.0, 0.0, 1.0);
-    status = band_factor(&band);
-    status = status ? status : iterate(sub, &band, n_wanted, space);
-    band_clear(&band);
+    sparse_fill(&sparse, sub->frame, 0.0, 0.0, 1.0);
+    status = sparse_factor(&sparse);
+    status = status ? status : iterate(sub, &sparse, n_wanted, space);
+    sparse_clear(&sparse);
   }
   free(space);
   return status;

@@ -223,7 +223,7 @@ static Status judge(const Network* network, double rate_hz, Retuning retuning) {
     return STATUS_NO_MEMORY;
   }
   network_scale(scaled, retuning.stiffness_factor, retuning.damping_factor);
-  Status status = modes_largest_step(scaled, &step_s);
+  Status status = modes_largest_step(scaled, NULL, &step_s);
   if (!status && !(1.0 / rate_hz <= step_s)) {
     status = STATUS_UNSTABLE;
   }

@@ -167,7 +167,7 @@ static void extremes_with_dampers_are_right_or_refused(void** state) {
     }
     assert_int_equal(network_check(network, NULL), STATUS_OK);
     double step_s = 0.0;
-    assert_int_equal(modes_largest_step(network, &step_s), STATUS_OK);
+    assert_int_equal(modes_largest_step(network, NULL, &step_s), STATUS_OK);
     worst_limit = fmax(worst_limit, fabs(step_s / limit_s - 1.0));
     Modes* modes = NULL;
     const Status status = modes_solve(network, 1.0 / step_s, 0, &modes);
