@@ -1,5 +1,6 @@
 #include "core/analysis/modes_few.h"
 
+#include "core/analysis/modes_drift.h"
 #include "core/analysis/modes_general.h"
 #include "core/analysis/modes_lapack.h"
 #include "core/analysis/modes_sparse.h"
@@ -103,7 +104,7 @@ static void slow_down(Slow* slow, const Sparse* sparse, double* space) {
     memcpy(v, f, n * sizeof(double));
     memcpy(slow->drag, g, n * sizeof(double));
     frame_add_drag(slow->frame, f, slow->drag);
-    sparse_solve(sparse, 1, slow->drag, space);
+    drift_solve(sparse, slow->frame, 1, slow->drag, space);
     for (size_t i = 0; i < n; ++i) {
       y[i] = -slow->drag[i] - slow->step_s * f[i];
     }
@@ -233,6 +234,8 @@ static Status iterate(Slow* slow, const Sparse* sparse, uint32_t n_wanted, doubl
   double last = HUGE_VAL;
   scatter((size_t)slow->frame->n * slow->p, slow->basis.y, 1);
   scatter((size_t)slow->frame->n * slow->p, slow->basis.v, 2);
+  drift_remove(slow->frame, slow->p, slow->basis.y, space);
+  drift_remove(slow->frame, slow->p, slow->basis.v, space);
   for (size_t k = 0; k < slow->p; ++k) {
     frame_stretch_edges(slow->frame, slow->basis.y + slow->frame->n * k,
                         slow->basis.stretch + slow->n_edges * k);
@@ -263,7 +266,7 @@ static Status iterate(Slow* slow, const Sparse* sparse, uint32_t n_wanted, doubl
 }
 
 bool few_is_worth_it(const Frame* frame, uint32_t n_wanted) {
-  return 4 * (uint64_t)n_pairs_for(n_wanted) < frame->n;
+  return 4 * (uint64_t)n_pairs_for(n_wanted) < frame->n - frame->n_free;
 }
 
 Status few_solve(const Frame* frame, double step_s, uint32_t n_wanted, double complex* values) {
@@ -274,8 +277,7 @@ Status few_solve(const Frame* frame, double step_s, uint32_t n_wanted, double co
   if (!status) {
     status = sparse_init(&sparse, frame);
     if (!status) {
-      sparse_fill(&sparse, frame, 0.0, 0.0, 1.0);
-      status = sparse_factor(&sparse);
+      status = drift_factor(&sparse, frame);
       status = status ? status : iterate(&slow, &sparse, n_wanted, space);
       sparse_clear(&sparse);
     }

@@ -18,6 +18,10 @@ static double* entry(const Sparse* sparse, uint32_t i, uint32_t j) {
   return &sparse->value[low];
 }
 
+static double* diagonal(const Sparse* sparse, uint32_t mass) {
+  return &sparse->value[sparse->order.start[sparse->order.place[mass]]];
+}
+
 /* Column k from its entry `from` on, times that entry, off the column that is factored. */
 static void subtract(const Sparse* sparse, uint32_t k, size_t from) {
   const uint32_t* const row = sparse->order.row;
@@ -126,22 +130,23 @@ void sparse_fill(Sparse* sparse, const Frame* frame, double one, double damping,
     const FrameLink link = frame->link[l];
     const double value = damping * link.z + stiffness * link.k;
     const double root_a = frame->root[link.a];
-    sparse_add(sparse, link.a, value / root_a / root_a);
+    *diagonal(sparse, link.a) += value / root_a / root_a;
     if (link.b != FRAME_GROUND) {
       const uint32_t p = order->place[link.a];
       const uint32_t q = order->place[link.b];
       const double root_b = frame->root[link.b];
-      sparse_add(sparse, link.b, value / root_b / root_b);
+      *diagonal(sparse, link.b) += value / root_b / root_b;
       *entry(sparse, p > q ? p : q, p > q ? q : p) = -value / root_a / root_b;
     }
   }
   for (uint32_t i = 0; i < order->n; ++i) {
-    sparse_add(sparse, i, one);
+    *diagonal(sparse, i) += one;
   }
 }
 
-void sparse_add(Sparse* sparse, uint32_t mass, double value) {
-  sparse->value[sparse->order.start[sparse->order.place[mass]]] += value;
+void sparse_tie(Sparse* sparse, uint32_t mass) {
+  double* const value = diagonal(sparse, mass);
+  *value += *value > 0.0 ? *value : 1.0;
 }
 
 Status sparse_factor(Sparse* sparse) {

@@ -30,8 +30,8 @@ void sparse_clear(Sparse* sparse);
 /** Fill the matrix with  one I + damping Ẑ + stiffness K̂. */
 void sparse_fill(Sparse* sparse, const Frame* frame, double one, double damping, double stiffness);
 
-/** Add to a mass's place on the diagonal. */
-void sparse_add(Sparse* sparse, uint32_t mass, double value);
+/** Add to a mass's place on the diagonal as much again, or 1 where it is 0. */
+void sparse_tie(Sparse* sparse, uint32_t mass);
 
 /** Replace the matrix by its Cholesky factor; STATUS_ILL_SCALED where it is not positive definite.
  */

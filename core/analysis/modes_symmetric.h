@@ -10,6 +10,8 @@
    [D99] J. Demmel et al., "Computing the singular value decomposition with high relative accuracy",
    1999.
 
+   What hangs on no ground has ω = 0 exactly, and comes first (core/analysis/modes_drift.h).
+
    Part of core/analysis/modes.
 */
 #ifndef HOOKE_CORE_ANALYSIS_MODES_SYMMETRIC_H
@@ -24,7 +26,7 @@
 #define SYMMETRIC_MOST 16384
 
 /**
-   @param frame        Of n masses, no part of it free
+   @param frame        Of n masses
    @param n_wanted     How many, the lowest; 1 to n
    @param[out] omega   ω [rad/s], rising, n_wanted
    @param[out] damping c [1/s], n_wanted
