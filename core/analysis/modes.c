@@ -74,7 +74,7 @@ static void fill_mode(Mode* mode, double step_s, const double complex* s, const 
   const double log_radius = log_radius_of(step_s, w[is_second ? 1 : 0]);
   put_larger_first(mode->pole);
   mode->tone = (Tone){
-      .f0_hz = carg(mode->pole[0]) / (2.0 * PI * step_s),
+      .f0_hz = fabs(carg(mode->pole[0])) / (2.0 * PI * step_s),
       .tau_s = log_radius == 0.0 ? HUGE_VAL : -step_s / log_radius,
   };
   mode->warp_cents = warp_cents(mode);

@@ -104,6 +104,7 @@ the_paper_is_named_where_it_differs() {
     grep -q "^the paper's rule, each eigenvalue by itself, says stable: the largest radius would be 0.9755951[0-9]*, and is 3.719972[0-9]*$" log ||
         fail "'$(cat log)'"
     answer 3 modes --csv paper.scene
+    near "$(column frequency_hz | tail -n 1)" 500 1e-12 "frequency of what flips and grows"
     same "$(column all_stable | head -n 1) $(column paper_all_stable | head -n 1)" '0 1' 'two verdicts'
 }
 
