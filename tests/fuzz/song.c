@@ -9,7 +9,7 @@
 enum { BYTES = 4, MOST_PORTS = 8 };
 
 /* Masses stepped, after which it is enough. */
-static const double MOST_WORK = 4e6;
+static const double MOST_WORK = 1e6;
 
 typedef struct {
   LV2_Atom_Sequence head;
