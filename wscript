@@ -24,7 +24,7 @@ import subprocess
 import sys
 import tempfile
 
-from tests import allowed, fuzzing, memcheck, runner
+from tests import allowed, fuzzing, memcheck, runner, sanitizing
 from tools import cross, packing
 from waflib import Build, Configure, Context, Errors, Options
 
@@ -81,6 +81,7 @@ def options(opt):
     opt.add_option('--debug', action='store_true', help='configure: build for a debugger')
     opt.add_option('--sanitize', action='store_true',
                    help='configure, test: ASan and UBSan, stopping at the first error; test: in build/sanitized')
+    sanitizing.options(opt)
     opt.add_option('--valgrind', action='store_true', help='test: under valgrind')
     opt.add_option('--werror', action='store_true', help='configure: let a warning fail the build')
     opt.add_option('--long', action='store_true', help='test: run the long versions of the tests as well')
@@ -100,6 +101,7 @@ def configure(conf):
     set_flags(conf)
     conf.env.CHOICES = {name: getattr(conf.options, name) for name in CONFIGURE_OPTIONS}
     fuzzing.configure(conf)
+    sanitizing.configure(conf)
     conf.setenv(SANITIZED, conf.env)
     add_sanitizers(conf)
     conf.setenv('')
@@ -263,7 +265,7 @@ def build_tools(bld):
     bld.install_files('${MANDIR}/man1', 'doc/hooke.1')
 
 
-def build_tests(bld):
+def build_tests(bld, folders):
     find_cmocka(bld)
     use = 'hooke_parts hooke_tools hooke_analysis hooke_core CMOCKA LILV SNDFILE LAPACK LV2 M DL PTHREAD'
     helpers = bld.path.ant_glob('tests/support/*.c', excl=['tests/*/test_*.c', 'tests/*/plant_*.c'])
@@ -277,7 +279,7 @@ def build_tests(bld):
         bld.program(source=[node], target='tests/hosts/' + node.name[:-len('.c')], use='hooke_helpers ' + use, install_path=None)
     bld.shlib(source=bld.path.ant_glob('tests/hosts/watch_*.c'), target='tests/hosts/watch', env=env, use='LILV LV2 DL',
               install_path=None)
-    for node in bld.path.ant_glob('tests/*/test_*.c'):
+    for node in bld.path.ant_glob(['tests/%s/test_*.c' % folder for folder in folders]):
         bld.program(source=[node], target='tests/' + node.name[:-len('.c')], use='hooke_helpers ' + use,
                     install_path=None)
     fuzzing.build_replays(bld, use)
@@ -336,7 +338,7 @@ class TestContext(Build.BuildContext):
 
     def __init__(self, **kw):
         super().__init__(**kw)
-        self.variant = SANITIZED if Options.options.sanitize else ''
+        self.variant = SANITIZED if Options.options.sanitize else sanitizing.chosen(Options.options) or ''
 
 
 class DemoContext(Build.BuildContext):
@@ -351,10 +353,14 @@ class ReportContext(Build.BuildContext):
 
 def test(bld):
     """builds, then runs all tests, or with --only some of them"""
+    kind = sanitizing.chosen(bld.options)
+    if bld.env['NO_%s' % kind]:
+        bld.add_post_fun(run_tests)
+        return
     build(bld)
     if not bld.env.WITH_TOOLS:
         bld.fatal('nothing can be tested without the libraries of %s' % bld.env.CHOICES['cross'])
-    build_tests(bld)
+    build_tests(bld, sanitizing.folders(kind))
     if any(name.startswith('fuzz_') for name, _ in test_programs(bld)):
         fuzzing.build(bld, ANALYSIS, AVX2)
     bld.add_post_fun(run_tests)
@@ -418,13 +424,15 @@ def run_environment(bld):
 
 def run_tests(bld):
     programs = test_programs(bld)
-    slow = bld.options.long or bld.options.sanitize or bld.options.valgrind
+    slow = bld.options.long or bld.options.sanitize or bld.options.valgrind or sanitizing.chosen(bld.options)
     timeout = bld.options.timeout or (3600 if slow else 600)
     environment = run_environment(bld)
     if bld.options.valgrind:
         programs = memcheck.wrap(programs, environment, bld.bldnode.abspath())
     # Not in /tmp, for there are systems that let nothing run there which a test has made.
-    with tempfile.TemporaryDirectory(prefix='run.', dir=bld.bldnode.make_node('tests').abspath(), ignore_cleanup_errors=True) as own:
+    place = bld.bldnode.make_node('tests')
+    place.mkdir()
+    with tempfile.TemporaryDirectory(prefix='run.', dir=place.abspath(), ignore_cleanup_errors=True) as own:
         environment['TMPDIR'] = own
         for_scripts = allowed.restrict(environment, bld.path.make_node('waf').abspath(), os.path.join(own, 'programs'))
         environments = {name: for_scripts if name.endswith('.sh') else environment for name, _ in programs}
@@ -437,10 +445,16 @@ def run_tests(bld):
 
 
 def test_programs(bld):
-    compiled = [node.name[:-len('.c')] for node in bld.path.ant_glob('tests/*/test_*.c')]
+    kind = sanitizing.chosen(bld.options)
+    if bld.env['NO_%s' % kind]:
+        return sanitizing.skipped(bld, kind)
+    globs = ['tests/%s/test_*.c' % folder for folder in sanitizing.folders(kind)]
+    compiled = [node.name[:-len('.c')] for node in bld.path.ant_glob(globs)]
     run = bld.env.CROSS_RUN
     programs = [(name, run + [bld.bldnode.make_node('tests/' + name).abspath()]) for name in compiled]
-    if not bld.env.CHOICES['cross']:
+    if kind:
+        programs = sanitizing.programs(kind, programs + fuzzing.replays(bld))
+    elif not bld.env.CHOICES['cross']:
         programs += [(node.name, [node.abspath()]) for node in bld.path.ant_glob('tests/*/test_*.sh')]
         programs += fuzzing.programs(bld)
     return [program for program in programs if any(word in program[0] for word in bld.options.only.split(','))]

@@ -6,8 +6,8 @@ fuzz_NAME looks for more with libFuzzer, which only clang has, in code that ASan
 
 import os
 
-# What a harness needs of tools/ and of the analysis; the rest of it needs libraries that are none of ours to fuzz.
-TOOLS = ['tools/formats/%s.c' % name for name in ['bytes', 'escape', 'text', 'smf', 'scene*', 'score*']] + ['core/analysis/network*.c']
+# What a harness needs of tools/; the rest of it needs libraries that are none of ours to fuzz.
+TOOLS = ['tools/formats/%s.c' % name for name in ['bytes', 'escape', 'text', 'smf', 'scene*', 'score*']]
 
 FLAGS = ['-std=c11', '-O1', '-g', '-w', '-fno-omit-frame-pointer', '-fno-sanitize-recover=all', '-fno-math-errno',
          '-fno-trapping-math', '-ffp-contract=off']
@@ -63,17 +63,17 @@ def build(bld, analysis, avx2):
     for_avx2 = bld.path.ant_glob('core/*/*_avx2.c') if bld.env.DEST_CPU == 'x86_64' else []
     core = bld.path.ant_glob('core/*/*.c', excl=[analysis, 'core/*/*_avx2.c'])
     defines = ['HOOKE_AVX2'] if for_avx2 else []
-    rest = bld.path.ant_glob(TOOLS + ['plugin/*.c']) + helpers(bld)
+    rest = bld.path.ant_glob(TOOLS + ['plugin/*.c', analysis]) + helpers(bld)
 
     def library(name, sources, **more):
         bld.stlib(source=sources, target='fuzz/' + name, install_path=None, env=environment(bld), **more)
 
     library('avx2', for_avx2, cflags=avx2, defines=defines)
     library('core', core, defines=defines, use='fuzz/avx2 M')
-    library('rest', rest, use='fuzz/core LV2 M')
+    library('rest', rest, use='fuzz/core LAPACK LV2 M')
     for name in harnesses(bld):
         bld.program(source='tests/fuzz/%s.c' % name, target='fuzz/' + name, install_path=None, env=environment(bld),
-                    use='fuzz/rest fuzz/core fuzz/avx2 LV2 M DL PTHREAD')
+                    use='fuzz/rest fuzz/core fuzz/avx2 LAPACK LV2 M DL PTHREAD')
 
 
 def environment(bld):
@@ -82,8 +82,12 @@ def environment(bld):
 
 def programs(bld):
     """(name, command) of all tests there are"""
-    replays = [('test_' + name, [bld.bldnode.make_node('tests/test_' + name).abspath()]) for name in harnesses(bld)]
-    return replays + [(name, command(bld, name)) for name in harnesses(bld)]
+    return replays(bld) + [(name, command(bld, name)) for name in harnesses(bld)]
+
+
+def replays(bld):
+    """the same of those that play the seeds"""
+    return [('test_' + name, [bld.bldnode.make_node('tests/test_' + name).abspath()]) for name in harnesses(bld)]
 
 
 # What it finds worth keeping goes beside it, for the next run; seeds are committed by hand.
@@ -94,6 +98,8 @@ def command(bld, name):
     corpus.mkdir()
     seconds = LONG_S if bld.options.long else SHORT_S
     return [bld.bldnode.make_node('fuzz/' + name).abspath(), '-max_total_time=%d' % seconds, '-print_final_stats=1',
+            # Its own, 77, is that of a test which is skipped.
+            '-error_exitcode=1',
             '-max_len=%d' % LONGEST_INPUT, '-timeout=%d' % INPUT_TIMEOUT_S,
             '-artifact_prefix=' + os.path.join(bld.bldnode.abspath(), 'fuzz', name + '-'),
             corpus.abspath(), bld.path.make_node('tests/fuzz/seeds/' + name[len('fuzz_'):]).abspath()]

@@ -1,10 +1,11 @@
 #include "core/analysis/modes.h"
 
-#include "core/analysis/modes_band.h"
+#include "core/analysis/modes_check.h"
 #include "core/analysis/modes_few.h"
 #include "core/analysis/modes_frame.h"
 #include "core/analysis/modes_general.h"
 #include "core/analysis/modes_match.h"
+#include "core/analysis/modes_step.h"
 #include "core/analysis/modes_symmetric.h"
 #include "core/base/complex_of.h"
 #include "core/base/maths.h"
@@ -28,8 +29,9 @@ static void roots(double c, double k, double complex* w) {
     w[1] = conj(w[0]);
   } else {
     const double faster = -0.5 * (c + sqrt(d));
-    w[0] = faster != 0.0 ? k / faster : 0.0;
-    w[1] = faster;
+    /* No 0 of theirs has a sign. */
+    w[0] = (faster != 0.0 ? k / faster : 0.0) + 0.0;
+    w[1] = faster + 0.0;
   }
 }
 
@@ -54,23 +56,25 @@ static Pole paper_pole(const Mode* mode, double step_s) {
   return (Pole){.a = product * step_s * step_s, .g = fmax(0.0, -sum * step_s)};
 }
 
+/* ln |1 + h w|, without the cancellation at slow decays. */
+static double log_radius_of(double step_s, double complex w) {
+  const double re = step_s * creal(w);
+  const double im = step_s * cimag(w);
+  return re > -0.5 ? 0.5 * log1p(2.0 * re + re * re + im * im) : log(cabs(1.0 + step_s * w));
+}
+
 /* All of a mode from its pairs of s and of w = (z − 1)/h. */
 static void fill_mode(Mode* mode, double step_s, const double complex* s, const double complex* w) {
   memcpy(mode->analog, s, sizeof(mode->analog));
-  double complex fastest = w[0];
+  mode->is_free = s[0] == 0.0;
   mode->pole[0] = 1.0 + step_s * w[0];
   mode->pole[1] = 1.0 + step_s * w[1];
-  if (cimag(w[0]) == 0.0 && cabs(mode->pole[1]) > cabs(mode->pole[0])) {
-    fastest = w[1];
-  }
+  const bool is_second =
+      cimag(w[0]) == 0.0 && (mode->is_free || cabs(mode->pole[1]) > cabs(mode->pole[0]));
+  const double log_radius = log_radius_of(step_s, w[is_second ? 1 : 0]);
   put_larger_first(mode->pole);
-  /* ln |1 + h w|, without the cancellation at slow decays. */
-  const double re = step_s * creal(fastest);
-  const double im = step_s * cimag(fastest);
-  const double log_radius =
-      re > -0.5 ? 0.5 * log1p(2.0 * re + re * re + im * im) : log(cabs(mode->pole[0]));
   mode->tone = (Tone){
-      .f0_hz = carg(mode->pole[0]) / (2.0 * PI * step_s),
+      .f0_hz = fabs(carg(mode->pole[0])) / (2.0 * PI * step_s),
       .tau_s = log_radius == 0.0 ? HUGE_VAL : -step_s / log_radius,
   };
   mode->warp_cents = warp_cents(mode);
@@ -87,9 +91,11 @@ static void fill_mode_of_mass(Mode* mode, double rate_hz, double omega, double d
   roots(damping, omega * omega, s);
   roots(damping + step_s * omega * omega, omega * omega, w);
   fill_mode(mode, step_s, s, w);
-  mode->tone = pole_tone(rate_hz, pole);
-  mode->radius = mode->paper_radius = pole_radius(pole);
-  mode->warp_cents = warp_cents(mode);
+  if (!mode->is_free) {
+    mode->tone = pole_tone(rate_hz, pole);
+    mode->radius = mode->paper_radius = pole_radius(pole);
+    mode->warp_cents = warp_cents(mode);
+  }
 }
 
 static Status solve_proportional(const Frame* frame, Modes* modes) {
@@ -109,7 +115,11 @@ static int compare_pairs(const void* left, const void* right) {
   const double complex* const q = right;
   const double size_p = sqrt(cabs(p[0])) * sqrt(cabs(p[1]));
   const double size_q = sqrt(cabs(q[0])) * sqrt(cabs(q[1]));
-  return size_p < size_q ? -1 : size_p > size_q;
+  if (size_p != size_q) {
+    return size_p < size_q ? -1 : 1;
+  }
+  /* Of what is not held, the least slowed down. */
+  return cabs(p[1]) < cabs(q[1]) ? -1 : cabs(p[1]) > cabs(q[1]);
 }
 
 /* The poles that one-mass maps of the pairs s give, as w. */
@@ -121,40 +131,28 @@ static void predict(size_t n, double step_s, const double complex* s, double com
   }
 }
 
-/* What the modes without dampers say of those with them. */
-static Status find_check(const Frame* frame, GeneralCheck* check) {
-  double* const omega = malloc(2 * (size_t)frame->n * sizeof(double));
-  double* const damping = omega + frame->n;
-  const Status status =
-      omega ? symmetric_solve(frame, frame->n, omega, damping, NULL) : STATUS_NO_MEMORY;
-  if (!status) {
-    *check = general_check(frame->n, omega, damping);
-  }
-  free(omega);
-  return status;
-}
-
 /* Pairs of s, rising, and pairs of w beside them. */
 static Status find_pairs(const Frame* frame, double step_s, double complex* s, double complex* w) {
   const uint32_t n = frame->n;
-  GeneralCheck check = {0};
+  Check check = {0};
   double complex* const expected = malloc(2 * (size_t)n * sizeof(double complex));
-  Status status = expected ? find_check(frame, &check) : STATUS_NO_MEMORY;
-  status = status ? status : general_solve(frame, 0.0, check, s);
-  status = status ? status : general_solve(frame, step_s, check, w);
-  status = status ? status : match_pairs(n, s);
+  Status status = expected ? check_find(frame, &check) : STATUS_NO_MEMORY;
+  status = status ? status : general_solve(frame, 0.0, &check, s);
+  status = status ? status : general_solve(frame, step_s, &check, w);
+  status = status ? status : match_pairs(n, frame->n_free, check.rate, s);
   if (!status) {
     qsort(s, n, 2 * sizeof(double complex), compare_pairs);
     predict(n, step_s, s, expected);
     status = match_poles(n, expected, w);
   }
+  check_clear(&check);
   free(expected);
   return status;
 }
 
-/* Pairs of the lowest s, rising, and beside each the nearest of the lowest w, some more than those
- * that are wanted, since the scheme may order them otherwise. */
-static Status find_few_pairs(
+/* Pairs of the lowest s but 0, rising, and beside each the nearest of the lowest w, some more than
+ * those that are wanted, since the scheme may order them otherwise. */
+static Status find_held_pairs(
     const Frame* frame, double step_s, uint32_t n, double complex* s, double complex* w) {
   const uint32_t n_w = n + MORE_FEW;
   double complex* const left = malloc(((size_t)n + n_w) * sizeof(double complex));
@@ -175,6 +173,20 @@ static Status find_few_pairs(
   }
   free(left);
   return status;
+}
+
+/* The lowest pairs, those of 0 first, which nothing slows down. */
+static Status find_few_pairs(
+    const Frame* frame, double step_s, uint32_t n, double complex* s, double complex* w) {
+  const size_t n_zeros = 2 * (size_t)(n < frame->n_free ? n : frame->n_free);
+  memset(s, 0, n_zeros * sizeof(double complex));
+  memset(w, 0, n_zeros * sizeof(double complex));
+  if (frame->n_free > frame->n_adrift) {
+    return STATUS_NO_SUCH_MODE;
+  }
+  return n > frame->n_free
+             ? find_held_pairs(frame, step_s, n - frame->n_free, s + n_zeros, w + n_zeros)
+             : STATUS_OK;
 }
 
 static Status solve_general(const Frame* frame, Modes* modes) {
@@ -242,18 +254,6 @@ static Status solve_frame(const Frame* frame, Modes* modes, Modes** out) {
   return STATUS_OK;
 }
 
-static Status largest_step(const Frame* frame, double* step_s) {
-  Band band;
-  double* const space = malloc(4 * (size_t)frame->n * sizeof(double));
-  Status status = space ? band_init(&band, frame) : STATUS_NO_MEMORY;
-  if (!status) {
-    *step_s = band_largest_step(&band, frame, space);
-    band_clear(&band);
-  }
-  free(space);
-  return status;
-}
-
 Status modes_solve(const Network* network, double rate_hz, uint32_t n_wanted, Modes** modes) {
   if (!(rate_hz > 0.0) || !isfinite(rate_hz) || !network->is_checked) {
     return STATUS_BAD_ARGUMENT;
@@ -262,12 +262,11 @@ Status modes_solve(const Network* network, double rate_hz, uint32_t n_wanted, Mo
   const uint32_t n_modes = n_wanted > 0 && n_wanted < n ? n_wanted : n;
   Frame frame;
   double step_s = 0.0;
-  Status status = network_find_free(network, NULL);
-  status = status ? status : frame_init(&frame, network);
+  Status status = frame_init(&frame, network);
   if (status) {
     return status;
   }
-  status = largest_step(&frame, &step_s);
+  status = step_find(&frame, NULL, &step_s);
   Modes* const found = status ? NULL : calloc(1, sizeof(Modes) + n_modes * sizeof(Mode));
   if (found) {
     found->rate_hz = rate_hz;
@@ -287,12 +286,11 @@ void modes_free(Modes* modes) {
   free(modes);
 }
 
-Status modes_largest_step(const Network* network, double* step_s) {
+Status modes_largest_step(const Network* network, const ModesWatch* watch, double* step_s) {
   Frame frame;
-  Status status = network->is_checked ? network_find_free(network, NULL) : STATUS_BAD_ARGUMENT;
-  status = status ? status : frame_init(&frame, network);
+  Status status = network->is_checked ? frame_init(&frame, network) : STATUS_BAD_ARGUMENT;
   if (!status) {
-    status = largest_step(&frame, step_s);
+    status = step_find(&frame, watch, step_s);
     frame_clear(&frame);
   }
   return status;

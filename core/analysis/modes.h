@@ -25,11 +25,15 @@
 
    which generalises (33), a + 2g ≤ 4, and the largest stable step is where it becomes singular.
 
+   A part that hangs on no ground has a mode of 0 Hz, whose slower eigenvalue is 0: it drifts, at a
+   speed that stays if its other eigenvalue is 0 too, and dies by dampers otherwise.
+
    Thread: any.  Allocates; calls LAPACK; is not real-time safe.
 */
 #ifndef HOOKE_CORE_ANALYSIS_MODES_H
 #define HOOKE_CORE_ANALYSIS_MODES_H
 
+#include "core/analysis/modes_watch.h"
 #include "core/analysis/network.h"
 #include "core/base/status.h"
 #include "core/string/pole.h"
@@ -44,11 +48,13 @@ typedef struct {
   double complex analog[2];
   /** z of the scheme: a conjugate pair, the upper first; or two real ones, the larger |z| first */
   double complex pole[2];
-  Tone tone;           /**< As it is heard, from pole[0]: F [Hz], 0 where z > 0 is real; τ [s] */
-  double warp_cents;   /**< F against Im s/2π [cents]; NaN where either does not vibrate */
-  double radius;       /**< |pole[0]|, which is 1 or less where stable */
+  Tone tone;         /**< As it is heard, from pole[0]: F [Hz], 0 where z > 0 is real; τ [s], of a
+                          free one that of its speed */
+  double warp_cents; /**< F against Im s/2π [cents]; NaN where either does not vibrate */
+  double radius;     /**< |pole[0]|, which is 1 or less where stable */
   double paper_radius; /**< The same, had from analog[] by the one-mass map ([MQ09] section 4.2) */
   PoleRegion region;   /**< Which motion the two poles make */
+  bool is_free;        /**< Whether it hangs on no ground: analog[0] and a pole's z − 1 are 0 */
 } Mode;
 
 /** The modes of a network, in order of |s|, their natural frequency; of a pair of real eigenvalues
@@ -78,9 +84,9 @@ typedef struct {
                       and the number of masses, unless unequal dampers leave one so low overdamped;
                       for all it grows with the cube of the masses
    @param[out] modes  To be given to modes_free(); untouched on failure
-   @return STATUS_OK; STATUS_BAD_ARGUMENT (the rate, or the network is not checked); STATUS_FREE
-   (see network_find_free()); STATUS_ILL_SCALED where rounding could have moved a mode by a
-   thousandth of itself; STATUS_NO_CONVERGENCE; STATUS_NO_MEMORY
+   @return STATUS_OK; STATUS_BAD_ARGUMENT (the rate, or the network is not checked);
+   STATUS_ILL_SCALED where rounding could have moved a mode by a thousandth of itself;
+   STATUS_NO_CONVERGENCE; STATUS_NO_MEMORY
 */
 Status modes_solve(const Network* network, double rate_hz, uint32_t n_wanted, Modes** modes);
 
@@ -91,10 +97,11 @@ void modes_free(Modes* modes);
    Find the largest time step with which a checked network is stable: the least positive root of
    det(4M − 2h Z − h² K).  Exact to a few roundings, however the network is scaled and damped.
 
-   @param[out] step_s  [s]; untouched on failure
-   @return STATUS_OK; STATUS_BAD_ARGUMENT (not checked); STATUS_FREE; STATUS_ILL_SCALED (k/m or Z/m
-   is no number); STATUS_NO_MEMORY
+   @param watch        Told of what is done; NULL: nobody
+   @param[out] step_s  [s]; INFINITY where nothing is linked to anything; untouched on failure
+   @return STATUS_OK; STATUS_BAD_ARGUMENT (not checked); STATUS_ILL_SCALED (k/m or Z/m is no
+   number); STATUS_NO_MEMORY
 */
-Status modes_largest_step(const Network* network, double* step_s);
+Status modes_largest_step(const Network* network, const ModesWatch* watch, double* step_s);
 
 #endif

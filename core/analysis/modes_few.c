@@ -1,8 +1,9 @@
 #include "core/analysis/modes_few.h"
 
-#include "core/analysis/modes_band.h"
+#include "core/analysis/modes_drift.h"
 #include "core/analysis/modes_general.h"
 #include "core/analysis/modes_lapack.h"
+#include "core/analysis/modes_sparse.h"
 #include "core/base/complex_of.h"
 
 #include <float.h>
@@ -93,7 +94,7 @@ static void scatter(size_t n, double* values, uint32_t seed) {
 }
 
 /* The image of the basis; `space` has n. */
-static void slow_down(Slow* slow, const Band* band, double* space) {
+static void slow_down(Slow* slow, const Sparse* sparse, double* space) {
   const size_t n = slow->frame->n;
   for (size_t k = 0; k < slow->p; ++k) {
     const double* const f = slow->basis.y + n * k;
@@ -103,7 +104,7 @@ static void slow_down(Slow* slow, const Band* band, double* space) {
     memcpy(v, f, n * sizeof(double));
     memcpy(slow->drag, g, n * sizeof(double));
     frame_add_drag(slow->frame, f, slow->drag);
-    band_solve(band, 1, slow->drag, space);
+    drift_solve(sparse, slow->frame, 1, slow->drag, space);
     for (size_t i = 0; i < n; ++i) {
       y[i] = -slow->drag[i] - slow->step_s * f[i];
     }
@@ -229,10 +230,12 @@ static Status look(Slow* slow, uint32_t n_wanted, uint32_t* n_found) {
   return *n_found < n_wanted ? STATUS_NO_CONVERGENCE : STATUS_OK;
 }
 
-static Status iterate(Slow* slow, const Band* band, uint32_t n_wanted, double* space) {
+static Status iterate(Slow* slow, const Sparse* sparse, uint32_t n_wanted, double* space) {
   double last = HUGE_VAL;
   scatter((size_t)slow->frame->n * slow->p, slow->basis.y, 1);
   scatter((size_t)slow->frame->n * slow->p, slow->basis.v, 2);
+  drift_remove(slow->frame, slow->p, slow->basis.y, space);
+  drift_remove(slow->frame, slow->p, slow->basis.v, space);
   for (size_t k = 0; k < slow->p; ++k) {
     frame_stretch_edges(slow->frame, slow->basis.y + slow->frame->n * k,
                         slow->basis.stretch + slow->n_edges * k);
@@ -240,7 +243,7 @@ static Status iterate(Slow* slow, const Band* band, uint32_t n_wanted, double* s
   orthonormalise(slow, &slow->basis);
   for (int round = 0; round < MOST_ROUNDS; ++round) {
     uint32_t n_found = 0;
-    slow_down(slow, band, space);
+    slow_down(slow, sparse, space);
     memcpy(slow->before, slow->found, n_wanted * sizeof(double complex));
     const Status status = look(slow, n_wanted, &n_found);
     if (status) {
@@ -263,21 +266,20 @@ static Status iterate(Slow* slow, const Band* band, uint32_t n_wanted, double* s
 }
 
 bool few_is_worth_it(const Frame* frame, uint32_t n_wanted) {
-  return 4 * (uint64_t)n_pairs_for(n_wanted) < frame->n;
+  return 4 * (uint64_t)n_pairs_for(n_wanted) < frame->n - frame->n_free;
 }
 
 Status few_solve(const Frame* frame, double step_s, uint32_t n_wanted, double complex* values) {
   Slow slow;
-  Band band;
+  Sparse sparse;
   double* const space = malloc(frame->n * sizeof(double));
   Status status = space ? slow_init(&slow, frame, step_s, n_wanted) : STATUS_NO_MEMORY;
   if (!status) {
-    status = band_init(&band, frame);
+    status = sparse_init(&sparse, frame);
     if (!status) {
-      band_fill(&band, frame, 0.0, 0.0, 1.0);
-      status = band_factor(&band);
-      status = status ? status : iterate(&slow, &band, n_wanted, space);
-      band_clear(&band);
+      status = drift_factor(&sparse, frame);
+      status = status ? status : iterate(&slow, &sparse, n_wanted, space);
+      sparse_clear(&sparse);
     }
     for (uint32_t k = 0; k < n_wanted && !status; ++k) {
       values[k] = slow.found[k];

@@ -5,9 +5,9 @@
 
        A⁻¹ (f, g) = (−K̂⁻¹ (g + Ẑ f) − h f,  f)
 
-   with the band of K̂ (core/analysis/modes_band.h), kept orthonormal in energy, and A⁻¹ is looked at
-   on that subspace only, where it is small and dense; the values are had anew from their shapes
-   (core/analysis/modes_general.h).
+   with the factor of K̂ (core/analysis/modes_sparse.h), kept orthonormal in energy, and A⁻¹ is
+   looked at on that subspace only, where it is small and dense; the values are had anew from their
+   shapes (core/analysis/modes_general.h).
 
    Part of core/analysis/modes.
 */
@@ -21,12 +21,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** Whether so few are wanted that it pays. */
+/** Whether so few are wanted, of those that do not drift, that it pays. */
 bool few_is_worth_it(const Frame* frame, uint32_t n_wanted);
 
 /**
-   Find the lowest w, by modulus, for which  w² I + w (Ẑ + step_s K̂) + K̂  is singular.
+   Find the lowest w but 0, by modulus, for which  w² I + w (Ẑ + step_s K̂) + K̂  is singular.
 
+   @param frame        Where nothing slows down what drifts
    @param n_wanted     For which few_is_worth_it()
    @param[out] values  w [1/s], the upper ones of conjugate pairs, rising in modulus, n_wanted
    @return STATUS_OK; STATUS_NO_SUCH_MODE where one so low is real, which has no pair to be told by;

@@ -28,6 +28,31 @@ static void number_masses(Frame* frame, const Network* network, uint32_t* row) {
   }
 }
 
+/* The free parts of masses, from those of points. */
+static void take_parts(Frame* frame, const uint32_t* row, const uint32_t* part, uint32_t n_points) {
+  memset(frame->part_root, 0, frame->n_free * sizeof(double));
+  for (uint32_t p = 0; p < n_points; ++p) {
+    if (row[p] != FRAME_GROUND) {
+      frame->part[row[p]] = part[p];
+      if (part[p] != FRAME_GROUND) {
+        double* const root = &frame->part_root[part[p]];
+        *root = hypot(*root, frame->root[row[p]]);
+      }
+    }
+  }
+}
+
+/* `part` has room for a number each point. */
+static Status
+find_parts(Frame* frame, const Network* network, const uint32_t* row, uint32_t* part) {
+  Status status = network_find_free(network, true, part, &frame->n_adrift);
+  status = status ? status : network_find_free(network, false, part, &frame->n_free);
+  if (!status) {
+    take_parts(frame, row, part, network->n_points);
+  }
+  return status;
+}
+
 static void
 take_links(Frame* frame, const NetworkLinks* links, const uint32_t* row, bool is_spring) {
   for (uint32_t l = 0; l < links->n; ++l) {
@@ -164,29 +189,33 @@ static bool is_split(const Frame* frame, double beta, double* left, double* size
 
 Status frame_init(Frame* frame, const Network* network) {
   const size_t n_links = (size_t)network->springs.n + network->dampers.n;
-  uint32_t* const row = malloc((network->n_points + 1) * sizeof(uint32_t));
+  uint32_t* const row = malloc(2 * ((size_t)network->n_points + 1) * sizeof(uint32_t));
   *frame = (Frame){
-      .root = malloc((network->n_masses + 1) * sizeof(double)),
+      .part = malloc((network->n_masses + (size_t)1) * sizeof(uint32_t)),
+      .part_root = malloc((network->n_masses + (size_t)1) * sizeof(double)),
+      .root = malloc((network->n_masses + (size_t)1) * sizeof(double)),
       .link = malloc((n_links + 1) * sizeof(FrameLink)),
   };
-  if (!row || !frame->root || !frame->link || n_links > UINT32_MAX) {
-    free(row);
-    frame_clear(frame);
-    return STATUS_NO_MEMORY;
+  Status status = STATUS_NO_MEMORY;
+  if (row && frame->part && frame->part_root && frame->root && frame->link &&
+      n_links <= UINT32_MAX) {
+    number_masses(frame, network, row);
+    take_links(frame, &network->springs, row, true);
+    take_links(frame, &network->dampers, row, false);
+    sum_parallel_links(frame);
+    status = has_numbers(frame) ? find_parts(frame, network, row, row + network->n_points)
+                                : STATUS_ILL_SCALED;
   }
-  number_masses(frame, network, row);
-  take_links(frame, &network->springs, row, true);
-  take_links(frame, &network->dampers, row, false);
-  sum_parallel_links(frame);
   free(row);
-  if (!has_numbers(frame)) {
+  if (status) {
     frame_clear(frame);
-    return STATUS_ILL_SCALED;
   }
-  return STATUS_OK;
+  return status;
 }
 
 void frame_clear(Frame* frame) {
+  free(frame->part);
+  free(frame->part_root);
   free(frame->root);
   free(frame->link);
   *frame = (Frame){0};
@@ -207,6 +236,15 @@ FrameForms frame_forms(const Frame* frame, const double complex* y) {
     forms.damping += link.z * length * length;
   }
   return forms;
+}
+
+double frame_stiffness(const Frame* frame, const double* y) {
+  double sum = 0.0;
+  for (uint32_t l = 0; l < frame->n_links; ++l) {
+    const double length = stretch(frame, frame->link[l], y);
+    sum += frame->link[l].k * length * length;
+  }
+  return sum;
 }
 
 double frame_damping(const Frame* frame, const double* y) {

@@ -30,8 +30,12 @@ typedef struct {
 typedef struct {
   uint32_t n; /**< Masses, numbered as their points come */
   uint32_t n_links;
-  double* root;    /**< √m, n */
-  FrameLink* link; /**< In order of a, then b */
+  uint32_t n_free;   /**< Parts that hang on no ground by springs: so many modes are of 0 Hz */
+  uint32_t n_adrift; /**< How many of these modes nothing slows down */
+  uint32_t* part;    /**< Of each mass its free part, or FRAME_GROUND, n */
+  double* part_root; /**< √m of each free part as a whole, n_free */
+  double* root;      /**< √m, n */
+  FrameLink* link;   /**< In order of a, then b */
 } Frame;
 
 /** @return STATUS_OK; or, with nothing to be cleared, STATUS_NO_MEMORY, or STATUS_ILL_SCALED where
@@ -50,7 +54,8 @@ typedef struct {
  * exact to a few roundings. */
 FrameForms frame_forms(const Frame* frame, const double complex* y);
 
-/** yᵀ Ẑ y of a real y, in the same way. */
+/** yᵀ K̂ y and yᵀ Ẑ y of a real y, in the same way. */
+double frame_stiffness(const Frame* frame, const double* y);
 double frame_damping(const Frame* frame, const double* y);
 
 /** Add Ẑ y of a real y to `sum`, n. */

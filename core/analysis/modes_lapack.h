@@ -69,44 +69,6 @@ void dgejsv_(const char* joba,
              int* iwork,
              int* info);
 
-/* Cholesky factor of a symmetric band matrix, kd off-diagonals; info > 0: not positive definite. */
-void dpbtrf_(const char* uplo, const int* n, const int* kd, double* ab, const int* ldab, int* info);
-
-/* Solve with what dpbtrf left. */
-void dpbtrs_(const char* uplo,
-             const int* n,
-             const int* kd,
-             const int* nrhs,
-             const double* ab,
-             const int* ldab,
-             double* b,
-             const int* ldb,
-             int* info);
-
-/* Eigenvalues il to iu of a symmetric band matrix, destroyed. */
-void dsbevx_(const char* jobz,
-             const char* range,
-             const char* uplo,
-             const int* n,
-             const int* kd,
-             double* ab,
-             const int* ldab,
-             double* q,
-             const int* ldq,
-             const double* vl,
-             const double* vu,
-             const int* il,
-             const int* iu,
-             const double* abstol,
-             int* m,
-             double* w,
-             double* z,
-             const int* ldz,
-             double* work,
-             int* iwork,
-             int* ifail,
-             int* info);
-
 /* Solve a complex system, a n × n, destroyed. */
 void zgetrf_(const int* m, const int* n, double complex* a, const int* lda, int* ipiv, int* info);
 void zgetrs_(const char* trans,

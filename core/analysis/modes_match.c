@@ -26,20 +26,50 @@ static uint32_t part(uint32_t n_values, const double complex* values, double com
   return n_pairs;
 }
 
-Status match_pairs(uint32_t n, double complex* values) {
+/* Real values, rising, of which some are taken. */
+typedef struct {
+  double complex* at;
+  size_t n;
+} Reals;
+
+static double complex take(Reals* reals, size_t i) {
+  const double complex value = reals->at[i];
+  --reals->n;
+  memmove(&reals->at[i], &reals->at[i + 1], (reals->n - i) * sizeof(double complex));
+  return value;
+}
+
+/* The one nearest to −rate that is not 0, if it is to be none. */
+static double complex take_nearest(Reals* reals, double rate) {
+  size_t best = 0;
+  for (size_t i = 1; i < reals->n; ++i) {
+    const bool is_better = cabs(reals->at[i] + rate) < cabs(reals->at[best] + rate);
+    best = rate > 0.0 && (is_better || reals->at[best] == 0.0) ? i : best;
+  }
+  return take(reals, best);
+}
+
+Status match_pairs(uint32_t n, uint32_t n_free, const double* rate, double complex* values) {
   const size_t n_values = 2 * (size_t)n;
   double complex* const sorted = malloc(n_values * sizeof(double complex));
   if (!sorted) {
     return STATUS_NO_MEMORY;
   }
   const uint32_t n_pairs = part(2 * n, values, sorted);
-  double complex* const real = sorted + 2 * (size_t)n_pairs;
-  const size_t n_real = n_values - 2 * (size_t)n_pairs;
-  qsort(real, n_real, sizeof(double complex), compare_sizes);
-  for (size_t k = 0; k < n; ++k) {
-    const size_t r = k - n_pairs;
-    values[2 * k] = k < n_pairs ? sorted[k] : real[r];
-    values[2 * k + 1] = k < n_pairs ? conj(sorted[k]) : real[n_real - 1 - r];
+  Reals reals = {sorted + 2 * (size_t)n_pairs, n_values - 2 * (size_t)n_pairs};
+  qsort(reals.at, reals.n, sizeof(double complex), compare_sizes);
+  size_t k = 0;
+  for (; k < n_pairs; ++k) {
+    values[2 * k] = sorted[k];
+    values[2 * k + 1] = conj(sorted[k]);
+  }
+  for (uint32_t p = 0; p < n_free && reals.n >= 2; ++p, ++k) {
+    values[2 * k] = take(&reals, 0);
+    values[2 * k + 1] = take_nearest(&reals, rate[p]);
+  }
+  for (size_t r = 0; k < n; ++k, ++r) {
+    values[2 * k] = reals.at[r];
+    values[2 * k + 1] = reals.at[reals.n - 1 - r];
   }
   free(sorted);
   return STATUS_OK;
@@ -55,27 +85,59 @@ typedef struct {
   double complex* left; /* Upper ones, or single real ones */
 } Matching;
 
-/* Give the nearest of what is left to each in turn of those that accept it. */
-static void give(Matching* matching, bool to_complex, bool is_pair) {
-  for (size_t k = 0; k < matching->n && matching->n_left; ++k) {
-    const bool is_complex = cimag(matching->expected[2 * k]) != 0.0;
-    if (matching->has_given[k] || is_complex != to_complex) {
-      continue;
+/* What is expected of a mode. */
+typedef enum { PAIR, REAL, ZERO } Kind;
+
+static Kind kind_of(double complex slower) {
+  return cimag(slower) != 0.0 ? PAIR : slower != 0.0 ? REAL : ZERO;
+}
+
+/* Take the nearest of what is left. */
+static double complex take_left(Matching* matching, double complex wanted) {
+  uint32_t best = 0;
+  for (uint32_t i = 1; i < matching->n_left; ++i) {
+    if (cabs(matching->left[i] - wanted) < cabs(matching->left[best] - wanted)) {
+      best = i;
     }
-    matching->has_given[k] = true;
-    for (size_t side = 0; side < (is_pair ? 1 : 2); ++side) {
-      const double complex wanted = matching->expected[2 * k + side];
-      uint32_t best = 0;
-      for (uint32_t i = 1; i < matching->n_left; ++i) {
-        if (cabs(matching->left[i] - wanted) < cabs(matching->left[best] - wanted)) {
-          best = i;
-        }
-      }
-      const double complex found = matching->left[best];
-      matching->left[best] = matching->left[--matching->n_left];
-      matching->given[2 * k + side] = found;
-      if (is_pair) {
-        matching->given[2 * k + 1] = conj(found);
+  }
+  const double complex found = matching->left[best];
+  matching->left[best] = matching->left[--matching->n_left];
+  return found;
+}
+
+static bool accepts(const Matching* matching, size_t k, Kind kind) {
+  return matching->n_left && !matching->has_given[k] && kind_of(matching->expected[2 * k]) == kind;
+}
+
+/* Give pairs to each in turn of those that accept them. */
+static void give_pairs(Matching* matching, Kind kind) {
+  for (size_t k = 0; k < matching->n; ++k) {
+    if (accepts(matching, k, kind)) {
+      matching->given[2 * k] = take_left(matching, matching->expected[2 * k]);
+      matching->given[2 * k + 1] = conj(matching->given[2 * k]);
+      matching->has_given[k] = true;
+    }
+  }
+}
+
+/* Give two real values each. */
+static void give_reals(Matching* matching, Kind kind) {
+  for (size_t k = 0; k < matching->n; ++k) {
+    if (accepts(matching, k, kind)) {
+      matching->given[2 * k] = take_left(matching, matching->expected[2 * k]);
+      matching->given[2 * k + 1] = take_left(matching, matching->expected[2 * k + 1]);
+      matching->has_given[k] = true;
+    }
+  }
+}
+
+/* Give a 0 each before anyone has a second. */
+static void give_zeros(Matching* matching) {
+  for (size_t side = 0; side < 2; ++side) {
+    for (size_t k = 0; k < matching->n; ++k) {
+      if (accepts(matching, k, ZERO)) {
+        matching->given[2 * k + side] = take_left(matching, matching->expected[2 * k + side]);
+        matching->has_given[k] = side == 1;
       }
     }
   }
@@ -91,12 +153,14 @@ Status match_poles(uint32_t n, const double complex* expected, double complex* v
     const uint32_t n_real = 2 * n - 2 * matching.n_left;
     matching.given = sorted + n_values;
     matching.left = sorted;
-    give(&matching, true, true);
-    give(&matching, false, true);
+    give_pairs(&matching, PAIR);
+    give_pairs(&matching, REAL);
+    give_pairs(&matching, ZERO);
     matching.left = sorted + n_values - n_real;
     matching.n_left = n_real;
-    give(&matching, false, false);
-    give(&matching, true, false);
+    give_zeros(&matching);
+    give_reals(&matching, REAL);
+    give_reals(&matching, PAIR);
     memcpy(values, matching.given, n_values * sizeof(double complex));
   }
   free(sorted);

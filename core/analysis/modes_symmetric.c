@@ -1,7 +1,8 @@
 #include "core/analysis/modes_symmetric.h"
 
-#include "core/analysis/modes_band.h"
+#include "core/analysis/modes_drift.h"
 #include "core/analysis/modes_lapack.h"
+#include "core/analysis/modes_sparse.h"
 
 #include <float.h>
 #include <math.h>
@@ -51,13 +52,31 @@ static Status jacobi(const char* kind,
   return status;
 }
 
-/* All shapes, n × n, and their ω, falling. */
+/* Beneath the edges, n_edges of m rows, the shapes of what drifts, so long that they sound higher
+ * than all else: B has no frequency of 0 then, and the others are what they were. */
+static void add_drift(const Frame* frame, uint32_t n_edges, uint32_t m, double* edges) {
+  double largest = 0.0;
+  for (size_t e = 0; e < (size_t)m * frame->n; ++e) {
+    largest = fmax(largest, fabs(edges[e]));
+  }
+  const double length = largest > 0.0 ? 2.0 * largest * sqrt(2.0 * n_edges) : 1.0;
+  for (uint32_t i = 0; i < frame->n; ++i) {
+    if (frame->part[i] != FRAME_GROUND) {
+      edges[n_edges + frame->part[i] + (size_t)i * m] =
+          length * frame->root[i] / frame->part_root[frame->part[i]];
+    }
+  }
+}
+
+/* All shapes, n × n, and their ω, falling; what drifts comes first, with an ω that is none. */
 static Status solve_all(const Frame* frame, double* omega, double* shapes) {
-  const uint32_t m = frame_count_edges(frame);
+  const uint32_t n_edges = frame_count_edges(frame);
+  const uint32_t m = n_edges + frame->n_free;
   double* const edges = malloc((size_t)m * frame->n * sizeof(double));
   Status status = edges ? STATUS_OK : STATUS_NO_MEMORY;
   if (!status) {
     frame_fill_edges(frame, m, edges);
+    add_drift(frame, n_edges, m, edges);
     status = jacobi(UNLIKE_ROWS, m, frame->n, edges, omega, shapes);
   }
   free(edges);
@@ -171,11 +190,11 @@ static double change(const Subspace* sub, uint32_t n_wanted) {
   return largest;
 }
 
-static Status iterate(Subspace* sub, const Band* band, uint32_t n_wanted, double* space) {
+static Status iterate(Subspace* sub, const Sparse* sparse, uint32_t n_wanted, double* space) {
   double last = HUGE_VAL;
   scatter(sub);
   for (int round = 0; round < MOST_ROUNDS; ++round) {
-    band_solve(band, sub->n_vectors, sub->vectors, space);
+    drift_solve(sparse, sub->frame, sub->n_vectors, sub->vectors, space);
     orthonormalise(sub);
     memcpy(sub->before, sub->omega, sub->n_vectors * sizeof(double));
     const Status status = turn(sub);
@@ -190,24 +209,41 @@ static Status iterate(Subspace* sub, const Band* band, uint32_t n_wanted, double
 
 /* The lowest ω and shapes of many masses, falling, n_wanted of the subspace's. */
 static Status solve_few(Subspace* sub, uint32_t n_wanted) {
-  Band band;
+  Sparse sparse;
   double* const space = malloc(sub->frame->n * sizeof(double));
-  Status status = space ? band_init(&band, sub->frame) : STATUS_NO_MEMORY;
+  Status status = space ? sparse_init(&sparse, sub->frame) : STATUS_NO_MEMORY;
   if (!status) {
-    band_fill(&band, sub->frame, 0.0, 0.0, 1.0);
-    status = band_factor(&band);
-    status = status ? status : iterate(sub, &band, n_wanted, space);
-    band_clear(&band);
+    status = drift_factor(&sparse, sub->frame);
+    status = status ? status : iterate(sub, &sparse, n_wanted, space);
+    sparse_clear(&sparse);
   }
   free(space);
   return status;
 }
 
-Status symmetric_solve(
-    const Frame* frame, uint32_t n_wanted, double* omega, double* damping, double* shapes) {
+/* What drifts: ω = 0. */
+static Status
+take_drift(const Frame* frame, uint32_t n_wanted, double* omega, double* damping, double* shapes) {
+  double* const all = malloc((frame->n_free + (size_t)1) * sizeof(double));
+  if (!all) {
+    return STATUS_NO_MEMORY;
+  }
+  drift_damping(frame, all);
+  memcpy(damping, all, n_wanted * sizeof(double));
+  memset(omega, 0, n_wanted * sizeof(double));
+  for (uint32_t k = 0; k < n_wanted && shapes; ++k) {
+    drift_shape(frame, k, shapes + (size_t)frame->n * k);
+  }
+  free(all);
+  return STATUS_OK;
+}
+
+/* What does not: at most n − n_free are wanted. */
+static Status
+solve_held(const Frame* frame, uint32_t n_wanted, double* omega, double* damping, double* shapes) {
   const size_t n = frame->n;
   const size_t n_guessed = n_wanted + n_wanted / 2 + (size_t)MORE_VECTORS;
-  const bool is_few = 2 * n_guessed < n;
+  const bool is_few = 2 * n_guessed < n - frame->n_free;
   const uint32_t n_vectors = is_few ? (uint32_t)n_guessed : frame->n;
   Subspace sub = {0};
   Status status = STATUS_NO_MEMORY;
@@ -227,5 +263,16 @@ Status symmetric_solve(
     }
   }
   free(space);
+  return status;
+}
+
+Status symmetric_solve(
+    const Frame* frame, uint32_t n_wanted, double* omega, double* damping, double* shapes) {
+  const uint32_t n_free = n_wanted < frame->n_free ? n_wanted : frame->n_free;
+  Status status = take_drift(frame, n_free, omega, damping, shapes);
+  if (!status && n_wanted > n_free) {
+    status = solve_held(frame, n_wanted - n_free, omega + n_free, damping + n_free,
+                        shapes ? shapes + (size_t)frame->n * n_free : NULL);
+  }
   return status;
 }

@@ -4,11 +4,13 @@
    All of them come from the singular values of B, BᵀB = K̂, by one-sided Jacobi rotations, which
    keep small ω beside large ones where eigenvalues of K̂ would lose them: B is a matrix of signs
    between two diagonal ones, so each ω is good to a few roundings of itself ([D99]).  The lowest
-   few of many come by subspace iteration with the band of K̂ (core/analysis/modes_band.h), again as
-   singular values of B on that subspace, whose error is the square of the shapes'.
+   few of many come by subspace iteration with the factor of K̂ (core/analysis/modes_sparse.h), again
+   as singular values of B on that subspace, whose error is the square of the shapes'.
 
    [D99] J. Demmel et al., "Computing the singular value decomposition with high relative accuracy",
    1999.
+
+   What hangs on no ground has ω = 0 exactly, and comes first (core/analysis/modes_drift.h).
 
    Part of core/analysis/modes.
 */
@@ -24,7 +26,7 @@
 #define SYMMETRIC_MOST 16384
 
 /**
-   @param frame        Of n masses, no part of it free
+   @param frame        Of n masses
    @param n_wanted     How many, the lowest; 1 to n
    @param[out] omega   ω [rad/s], rising, n_wanted
    @param[out] damping c [1/s], n_wanted

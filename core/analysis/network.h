@@ -113,24 +113,19 @@ Status network_add_string(Network* network,
 Status network_check(Network* network, NetworkFault* fault);
 
 /**
-   Number the parts that hang together by springs of more than zero stiffness.  Grounded points join
-   nothing and belong to no part.
+   Number the parts which hang together, and on no grounded point, by springs of more than zero
+   stiffness.  Each has a mode of frequency 0: it drifts.  A damper to a grounded point slows it
+   down and does not bring it back.
 
-   @param[out] part     n_points elements: the part, from 0, in order of its lowest point;
-                        UINT32_MAX for a grounded point
-   @param[out] n_parts  How many parts there are
+   @param is_by_dampers_too  Take dampers of more than zero for springs: what is free then is not
+                             slowed down either
+   @param[out] part          n_points elements: the part, from 0, in order of its lowest point;
+                             UINT32_MAX for a grounded point and for what hangs on one
+   @param[out] n_free        How many parts there are
    @return STATUS_OK or STATUS_NO_MEMORY
 */
-Status network_find_parts(const Network* network, uint32_t* part, uint32_t* n_parts);
-
-/**
-   Look for a part that no spring ties to a grounded point.  Such a part has a mode of frequency 0:
-   it drifts.  (A damper to a grounded point slows it down and does not bring it back.)
-
-   @param[out] fault  The lowest point of the first such part; untouched if there is none
-   @return STATUS_OK if every part is tied; STATUS_FREE; STATUS_NO_MEMORY
-*/
-Status network_find_free(const Network* network, NetworkFault* fault);
+Status
+network_find_free(const Network* network, bool is_by_dampers_too, uint32_t* part, uint32_t* n_free);
 
 /**
    Fill the matrices of a checked network, over its n = n_masses masses in the order of their

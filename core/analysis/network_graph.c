@@ -55,27 +55,21 @@ static void join(uint32_t* parent, uint32_t a, uint32_t b) {
   parent[root_a > root_b ? root_a : root_b] = root_a > root_b ? root_b : root_a;
 }
 
-/* Each point's representative; a grounded point is its own. */
-static void find_roots(const Network* network, uint32_t* parent) {
-  for (uint32_t p = 0; p < network->n_points; ++p) {
-    parent[p] = p;
-  }
-  for (uint32_t s = 0; s < network->springs.n; ++s) {
-    const NetworkLink spring = network->springs.link[s];
-    if (spring.value > 0.0 && !network->is_ground[spring.from] && !network->is_ground[spring.to]) {
-      join(parent, spring.from, spring.to);
+static void join_linked(const Network* network, const NetworkLinks* links, uint32_t* parent) {
+  for (uint32_t l = 0; l < links->n; ++l) {
+    const NetworkLink link = links->link[l];
+    if (link.value > 0.0 && !network->is_ground[link.from] && !network->is_ground[link.to]) {
+      join(parent, link.from, link.to);
     }
-  }
-  for (uint32_t p = 0; p < network->n_points; ++p) {
-    parent[p] = root_of(parent, p);
   }
 }
 
-static void mark_tied(const Network* network, const uint32_t* root, bool* is_tied) {
-  for (uint32_t s = 0; s < network->springs.n; ++s) {
-    const NetworkLink spring = network->springs.link[s];
-    if (spring.value > 0.0 && network->is_ground[spring.from] != network->is_ground[spring.to]) {
-      is_tied[root[network->is_ground[spring.from] ? spring.to : spring.from]] = true;
+static void
+mark_held(const Network* network, const NetworkLinks* links, uint32_t* parent, bool* is_held) {
+  for (uint32_t l = 0; l < links->n; ++l) {
+    const NetworkLink link = links->link[l];
+    if (link.value > 0.0 && network->is_ground[link.from] != network->is_ground[link.to]) {
+      is_held[root_of(parent, network->is_ground[link.from] ? link.to : link.from)] = true;
     }
   }
 }
@@ -118,48 +112,37 @@ Status network_check(Network* network, NetworkFault* fault) {
   return status;
 }
 
-Status network_find_parts(const Network* network, uint32_t* part, uint32_t* n_parts) {
+Status network_find_free(const Network* network,
+                         bool is_by_dampers_too,
+                         uint32_t* part,
+                         uint32_t* n_free) {
   const size_t n = network->n_points;
-  uint32_t* const root = malloc((n ? n : 1) * sizeof(uint32_t));
-  if (!root) {
-    return STATUS_NO_MEMORY;
-  }
-  find_roots(network, root);
-  uint32_t count = 0;
-  for (uint32_t p = 0; p < network->n_points; ++p) {
-    if (network->is_ground[p]) {
-      part[p] = UINT32_MAX;
-    } else {
-      part[p] = root[p] == p ? count++ : part[root[p]];
+  uint32_t* const parent = malloc((n ? n : 1) * sizeof(uint32_t));
+  bool* const is_held = calloc(n ? n : 1, sizeof(bool));
+  const bool has_room = parent && is_held;
+  if (has_room) {
+    for (uint32_t p = 0; p < n; ++p) {
+      parent[p] = p;
     }
-  }
-  *n_parts = count;
-  free(root);
-  return STATUS_OK;
-}
-
-Status network_find_free(const Network* network, NetworkFault* fault) {
-  const size_t n = network->n_points;
-  uint32_t* const root = malloc((n ? n : 1) * sizeof(uint32_t));
-  bool* const is_tied = calloc(n ? n : 1, sizeof(bool));
-  Status status = root && is_tied ? STATUS_OK : STATUS_NO_MEMORY;
-  if (!status) {
-    find_roots(network, root);
-    mark_tied(network, root, is_tied);
-    uint32_t p = 0;
-    while (p < n && (network->is_ground[p] || is_tied[root[p]])) {
-      ++p;
+    join_linked(network, &network->springs, parent);
+    if (is_by_dampers_too) {
+      join_linked(network, &network->dampers, parent);
+      mark_held(network, &network->dampers, parent, is_held);
     }
-    if (p < n) {
-      status = STATUS_FREE;
-      if (fault) {
-        *fault = (NetworkFault){.element = NETWORK_POINT, .index = p};
+    mark_held(network, &network->springs, parent, is_held);
+    *n_free = 0;
+    for (uint32_t p = 0; p < n; ++p) {
+      const uint32_t root = root_of(parent, p);
+      if (network->is_ground[p] || is_held[root]) {
+        part[p] = UINT32_MAX;
+      } else {
+        part[p] = root == p ? (*n_free)++ : part[root];
       }
     }
   }
-  free(root);
-  free(is_tied);
-  return status;
+  free(parent);
+  free(is_held);
+  return has_room ? STATUS_OK : STATUS_NO_MEMORY;
 }
 
 Status

@@ -223,7 +223,7 @@ static Status judge(const Network* network, double rate_hz, Retuning retuning) {
     return STATUS_NO_MEMORY;
   }
   network_scale(scaled, retuning.stiffness_factor, retuning.damping_factor);
-  Status status = modes_largest_step(scaled, &step_s);
+  Status status = modes_largest_step(scaled, NULL, &step_s);
   if (!status && !(1.0 / rate_hz <= step_s)) {
     status = STATUS_UNSTABLE;
   }
@@ -239,17 +239,18 @@ Status retune_solve(const Network* network, double rate_hz, Tone tone, uint32_t 
   if (!(tone.f0_hz < 0.5 * rate_hz)) {
     return STATUS_UNREACHABLE;
   }
-  if (k < 1 || k > network->n_masses) {
+  if (k > network->n_masses) {
     return STATUS_NO_SUCH_MODE;
   }
   Frame frame;
   Retuning found = {0};
-  Status status = network_find_free(network, NULL);
-  status = status ? status : frame_init(&frame, network);
+  Status status = frame_init(&frame, network);
   if (status) {
     return status;
   }
-  status = solve_frame(&frame, rate_hz, tone, k, &found);
+  const uint32_t mode = k ? k : frame.n_free + 1;
+  status = mode > frame.n_free && mode <= frame.n ? solve_frame(&frame, rate_hz, tone, mode, &found)
+                                                  : STATUS_FREE;
   frame_clear(&frame);
   status = status ? status : judge(network, rate_hz, found);
   if (!status) {

@@ -40,12 +40,13 @@ typedef struct {
    @param network   Checked; not changed
    @param rate_hz   Steps per second [Hz], > 0
    @param tone      0 < F < rate/2 [Hz]; τ > 0 [s], INFINITY for no damping
-   @param k         Which mode, from 1, in order of natural frequency without dampers
+   @param k         Which mode, from 1, in order of natural frequency without dampers; 0: the
+                    lowest that is not of 0 Hz
    @param[out] out  Untouched on failure
    @return STATUS_OK: the mode has the tone and the network is stable; STATUS_BAD_ARGUMENT;
-   STATUS_FREE; STATUS_NO_SUCH_MODE; STATUS_UNREACHABLE (F at or above rate/2; or τ is finite and no
-   factor damps the mode that much); STATUS_UNSTABLE (another mode would grow); STATUS_ILL_SCALED,
-   STATUS_NO_CONVERGENCE, STATUS_NO_MEMORY
+   STATUS_FREE (the mode is of 0 Hz, whatever its springs); STATUS_NO_SUCH_MODE; STATUS_UNREACHABLE
+   (F at or above rate/2; or τ is finite and no factor damps the mode that much); STATUS_UNSTABLE
+   (another mode would grow); STATUS_ILL_SCALED, STATUS_NO_CONVERGENCE, STATUS_NO_MEMORY
 */
 Status retune_solve(const Network* network, double rate_hz, Tone tone, uint32_t k, Retuning* out);
 

@@ -13,7 +13,7 @@
   X(NO_SUCH_POINT, "a spring or damper ends at a point that is not there")                         \
   X(SELF_LINK, "a spring or damper joins a point to itself")                                       \
   X(EMPTY, "there is no mass")                                                                     \
-  X(FREE, "a part hangs on no grounded point, so it can drift away")                               \
+  X(FREE, "it is the drift of a part that hangs on no grounded point")                             \
   X(NO_SUCH_MODE, "there is no such mode")                                                         \
   X(UNREACHABLE, "the pitch lies beyond half the rate, or nothing damps the mode that much")       \
   X(ILL_SCALED, "its numbers differ too widely for the arithmetic")                                \

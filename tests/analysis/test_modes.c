@@ -100,7 +100,7 @@ static void poles_are_the_eigenvalues_of_the_step(void** state) {
     Network* const network = networks_random(&random, trial % 3 ? &MODEST : &UNDAMPED);
     const size_t order = 2 * (size_t)network->n_masses;
     double limit_s = 0.0;
-    assert_int_equal(modes_largest_step(network, &limit_s), STATUS_OK);
+    assert_int_equal(modes_largest_step(network, NULL, &limit_s), STATUS_OK);
     const double h = limit_s * random_between(&random, 0.05, 1.5);
     Modes* const modes = solve(network, 1.0 / h, 0);
     double* const matrix = networks_zeros(order * order);
@@ -250,16 +250,12 @@ static void what_cannot_be_judged_is_refused(void** state) {
   uint32_t stray = 0;
   network_add_mass(network, 1.0, &stray);
   assert_int_equal(modes_solve(network, 1.0, 0, &modes), STATUS_BAD_ARGUMENT);
-  assert_int_equal(modes_largest_step(network, &step_s), STATUS_BAD_ARGUMENT);
-  network_add_damper(network, stray, 3, 1.0);
-  assert_int_equal(network_check(network, NULL), STATUS_OK);
-  assert_int_equal(modes_solve(network, 1.0, 0, &modes), STATUS_FREE);
-  assert_int_equal(modes_largest_step(network, &step_s), STATUS_FREE);
+  assert_int_equal(modes_largest_step(network, NULL, &step_s), STATUS_BAD_ARGUMENT);
   network_add_spring(network, stray, 3, 1e300);
   network->mass_kg[stray] = 1e-300;
   assert_int_equal(network_check(network, NULL), STATUS_OK);
   assert_int_equal(modes_solve(network, 1.0, 0, &modes), STATUS_ILL_SCALED);
-  assert_int_equal(modes_largest_step(network, &step_s), STATUS_ILL_SCALED);
+  assert_int_equal(modes_largest_step(network, NULL, &step_s), STATUS_ILL_SCALED);
   assert_null(modes);
   assert_true(step_s == 12345.0);
   network_free(network);

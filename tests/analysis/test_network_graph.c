@@ -73,78 +73,95 @@ static void what_is_fixed_is_checked_again(void** state) {
   network_free(network);
 }
 
-/* Parts by spreading from each mass, the slow way. */
-static bool is_tied(const Network* network, uint32_t point) {
-  bool* const reached = calloc(network->n_points, sizeof(bool));
-  assert_non_null(reached);
-  reached[point] = true;
+/* What can be reached from a point, the slow way; whether that is a ground. */
+static bool spread(const Network* network, bool is_by_dampers_too, uint32_t point, bool* reached) {
+  const NetworkLinks* const links[] = {&network->springs, &network->dampers};
   bool has_grown = true;
-  bool is_found = false;
+  bool is_held = false;
+  memset(reached, 0, network->n_points * sizeof(bool));
+  reached[point] = true;
   while (has_grown) {
     has_grown = false;
-    for (uint32_t s = 0; s < network->springs.n; ++s) {
-      const NetworkLink spring = network->springs.link[s];
-      const bool joins = spring.value > 0.0 && reached[spring.from] != reached[spring.to];
-      const uint32_t other = reached[spring.from] ? spring.to : spring.from;
-      if (joins && network->is_ground[other]) {
-        is_found = true;
-      } else if (joins) {
-        has_grown = reached[other] = true;
+    for (uint32_t kind = 0; kind < (is_by_dampers_too ? 2 : 1); ++kind) {
+      for (uint32_t l = 0; l < links[kind]->n; ++l) {
+        const NetworkLink link = links[kind]->link[l];
+        const bool joins = link.value > 0.0 && reached[link.from] != reached[link.to];
+        const uint32_t other = reached[link.from] ? link.to : link.from;
+        if (joins && network->is_ground[other]) {
+          is_held = true;
+        } else if (joins) {
+          has_grown = reached[other] = true;
+        }
       }
     }
   }
-  free(reached);
-  return is_found;
+  return is_held;
 }
 
-static void free_parts_are_those_that_nothing_ties(void** state) {
+static void free_parts_are_those_that_nothing_holds(void** state) {
   (void)state;
   Random random = random_start();
-  int n_free = 0;
+  uint32_t n_of[2] = {0, 0};
   for (int trial = 0; trial < 300; ++trial) {
     Network* const network = networks_random(&random, &UNLIKE);
+    const uint32_t n = network->n_points;
     for (int cut = (int)random_below(&random, 4); cut > 0; --cut) {
       network->springs.link[random_below(&random, network->springs.n)].value = 0.0;
     }
-    uint32_t first_free = 0;
-    while (first_free < network->n_points &&
-           (network->is_ground[first_free] || is_tied(network, first_free))) {
-      ++first_free;
+    uint32_t* const part = calloc(n, sizeof(uint32_t));
+    bool* const reached = calloc(n, sizeof(bool));
+    assert_true(part && reached);
+    for (int too = 0; too < 2; ++too) {
+      uint32_t n_free = 0;
+      uint32_t n_seen = 0;
+      assert_int_equal(network_find_free(network, too, part, &n_free), STATUS_OK);
+      for (uint32_t p = 0; p < n; ++p) {
+        if (network->is_ground[p] || spread(network, too, p, reached)) {
+          assert_int_equal(part[p], UINT32_MAX);
+          continue;
+        }
+        /* Of the lowest point of the part, or a new one. */
+        uint32_t first = 0;
+        while (!reached[first]) {
+          ++first;
+        }
+        assert_int_equal(part[p], first < p ? part[first] : n_seen++);
+      }
+      assert_int_equal(n_free, n_seen);
+      n_of[too] += n_free;
     }
-    NetworkFault fault = {NETWORK_SPRING, 12345};
-    const Status status = network_find_free(network, &fault);
-    assert_int_equal(status, first_free < network->n_points ? STATUS_FREE : STATUS_OK);
-    assert_int_equal(fault.index, status ? first_free : 12345);
-    n_free += status ? 1 : 0;
+    free(part);
+    free(reached);
     network_free(network);
   }
-  assert_true(n_free > 50 && n_free < 250);
+  assert_true(n_of[0] > 50 && n_of[1] > 20 && n_of[1] < n_of[0]);
 }
 
-static void parts_are_numbered_in_order(void** state) {
+static void free_parts_are_numbered_in_order(void** state) {
   (void)state;
   Network* const network = network_new();
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 7; ++i) {
     network_add_mass(network, 1.0, NULL);
   }
   network_add_ground(network, NULL);
   network_add_spring(network, 5, 1, 1.0);
   network_add_spring(network, 4, 2, 1.0);
   network_add_spring(network, 2, 5, 1.0);
-  network_add_spring(network, 0, 6, 1.0); /* A ground joins nothing … */
-  network_add_spring(network, 1, 6, 1.0);
-  network_add_damper(network, 0, 3, 1.0); /* … nor does a damper … */
-  network_add_spring(network, 0, 3, 0.0); /* … or a spring without stiffness */
+  network_add_spring(network, 0, 7, 1.0); /* Held */
+  network_add_damper(network, 0, 3, 1.0); /* A damper holds nothing … */
+  network_add_damper(network, 4, 6, 1.0);
+  network_add_spring(network, 0, 3, 0.0); /* … nor does a spring without stiffness */
   assert_int_equal(network_check(network, NULL), STATUS_OK);
-  static const uint32_t expected[7] = {0, 1, 1, 2, 1, 1, UINT32_MAX};
-  uint32_t part[7];
-  uint32_t n_parts = 0;
-  assert_int_equal(network_find_parts(network, part, &n_parts), STATUS_OK);
-  assert_int_equal(n_parts, 3);
-  assert_memory_equal(part, expected, sizeof(part));
-  NetworkFault fault = {NETWORK_POINT, 0};
-  assert_int_equal(network_find_free(network, &fault), STATUS_FREE);
-  assert_int_equal(fault.index, 3);
+  static const uint32_t by_springs[8] = {UINT32_MAX, 0, 0, 1, 0, 0, 2, UINT32_MAX};
+  static const uint32_t by_all[8] = {UINT32_MAX, 0, 0, UINT32_MAX, 0, 0, 0, UINT32_MAX};
+  uint32_t part[8];
+  uint32_t n_free = 0;
+  assert_int_equal(network_find_free(network, false, part, &n_free), STATUS_OK);
+  assert_int_equal(n_free, 3);
+  assert_memory_equal(part, by_springs, sizeof(part));
+  assert_int_equal(network_find_free(network, true, part, &n_free), STATUS_OK);
+  assert_int_equal(n_free, 1);
+  assert_memory_equal(part, by_all, sizeof(part));
   network_free(network);
 }
 
@@ -179,8 +196,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_ill_formed_element_is_named),
       cmocka_unit_test(what_is_fixed_is_checked_again),
-      cmocka_unit_test(free_parts_are_those_that_nothing_ties),
-      cmocka_unit_test(parts_are_numbered_in_order),
+      cmocka_unit_test(free_parts_are_those_that_nothing_holds),
+      cmocka_unit_test(free_parts_are_numbered_in_order),
       cmocka_unit_test(matrices_are_what_the_links_add_up_to),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -68,12 +68,12 @@ static void what_cannot_be_tuned_is_refused(void** state) {
                    STATUS_BAD_ARGUMENT);
   assert_int_equal(retune_solve(network, 1e3, (Tone){500.0, 1.0}, 1, &out), STATUS_UNREACHABLE);
   assert_int_equal(retune_solve(network, 1e3, (Tone){HUGE_VAL, 1.0}, 1, &out), STATUS_UNREACHABLE);
-  assert_int_equal(retune_solve(network, 1e3, tone, 0, &out), STATUS_NO_SUCH_MODE);
   assert_int_equal(retune_solve(network, 1e3, tone, 4, &out), STATUS_NO_SUCH_MODE);
   assert_int_equal(retune_solve(network, 1e3, (Tone){499.0, 1.0}, 1, &out), STATUS_UNSTABLE);
   network_add_mass(network, 1.0, NULL);
   assert_int_equal(retune_solve(network, 1e3, tone, 1, &out), STATUS_BAD_ARGUMENT);
   assert_int_equal(network_check(network, NULL), STATUS_OK);
+  /* What hangs on nothing is of 0 Hz, whatever its springs. */
   assert_int_equal(retune_solve(network, 1e3, tone, 1, &out), STATUS_FREE);
   network_free(network);
   Network* const undamped = networks_string(3, 1.0, 2.0, 0.0);

@@ -36,15 +36,15 @@ static float odd_value(uint32_t which) {
 
 /* Sixteen of the values of a byte are odd; the others lie between both ends, which are among them.
  */
-static void move_port(Blocks* blocks) {
-  const PlugKind* const kind = blocks->plug->kind;
-  const PortRange* const range = &kind->controls[fuzz_byte(&blocks->feed) % kind->n_controls];
-  const uint32_t byte = fuzz_byte(&blocks->feed);
+void blocks_move_port(Plug* plug, FuzzFeed* feed) {
+  const PlugKind* const kind = plug->kind;
+  const PortRange* const range = &kind->controls[fuzz_byte(feed) % kind->n_controls];
+  const uint32_t byte = fuzz_byte(feed);
   const double low = (double)range->minimum;
   const double high = (double)range->maximum;
   const double t = (byte - 16.0) / 239.0;
   const double value = low > 0.0 ? low * pow(high / low, t) : low + t * (high - low);
-  blocks->plug->values[range->index] = byte < 16 ? odd_value(byte) : (float)value;
+  plug->values[range->index] = byte < 16 ? odd_value(byte) : (float)value;
 }
 
 /* A message that is one, mostly: of all kinds that mean something there are many. */
@@ -122,7 +122,7 @@ static double play_block(Blocks* blocks) {
   static const uint32_t sizes[] = {0, 1, 7, 32, 64, 150, 256, PLUG_FRAMES};
   const uint32_t head = fuzz_byte(&blocks->feed);
   for (uint32_t i = (head >> 3) % 4; i > 0; --i) {
-    move_port(blocks);
+    blocks_move_port(blocks->plug, &blocks->feed);
   }
   const uint32_t n_frames = sizes[head >> 5];
   run_block(blocks, n_frames, head % (MOST_EVENTS + 1));

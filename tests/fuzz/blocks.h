@@ -17,6 +17,9 @@ enum { BLOCKS_BODY = 4608 /**< Most bytes of an event */ };
 /** Make the body of an event that is the instrument's own. @return Its bytes */
 typedef uint32_t (*BlocksOwn)(FuzzFeed* feed, uint8_t body[BLOCKS_BODY]);
 
+/** Move a control port to where two bytes say, right or wrong. */
+void blocks_move_port(Plug* plug, FuzzFeed* feed);
+
 /**
    Play all that bytes say, until they or a bound on the work is over; then all sound off.
 

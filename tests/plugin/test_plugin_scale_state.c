@@ -374,6 +374,12 @@ static void* run_all_the_time(void* data) {
   return NULL;
 }
 
+/* The files alone: a host does not write to ports that an instrument is reading. */
+static void restore_files(Host* host, const LilvState* state) {
+  static const LV2_Feature* const none[] = {NULL};
+  lilv_state_restore(state, host_instance(host), NULL, NULL, 0, none);
+}
+
 static void it_may_be_restored_while_it_runs(void** state) {
   (void)state;
   enum { N_TIMES = 500 };
@@ -393,7 +399,7 @@ static void it_may_be_restored_while_it_runs(void** state) {
   runner.host = host;
   assert_int_equal(pthread_create(&thread, NULL, run_all_the_time, &runner), 0);
   for (int i = 0; i < N_TIMES; ++i) {
-    host_restore_state(host, states[i % 2]);
+    restore_files(host, states[i % 2]);
     LilvState* const now = host_save_state(host);
     assert_true(lilv_state_equals(now, states[i % 2]));
     lilv_state_free(now);

@@ -52,6 +52,36 @@ writes_a_stereo_wav_at_the_rate_of_the_scene() {
         fail "the two sides differ"
 }
 
+# Struck at 3 m/s, a free mass of 2 kg is at 3 t m; one on a damper of 1 kg/s comes to rest, 3 m/Z - h m/s away; and
+# the spring between two masses is heard without their drift.
+what_hangs_on_no_ground_drifts() {
+    cat >drift.scene <<'END'
+rate 4000
+mass a 2
+at 0 strike a 3
+pickup a 1
+end 1
+END
+    render drift.scene out/a.wav || return
+    near "$(left out/a.wav | sed -n 4000p)" "$(awk 'BEGIN { print 3 * 3999 / 4000 }')" 1e-6 'after a second'
+    printf 'ground g\ndamper a g 100\n' >>drift.scene
+    render drift.scene out/a.wav || return
+    near "$(left out/a.wav | sed -n 4000p)" "$(awk 'BEGIN { print 3 * 2 / 100 - 3 / 4000 }')" 1e-5 'at rest'
+    cat >pair.scene <<'END'
+rate 6000
+mass a 1
+mass b 1
+spring a b 3820000
+at 0 strike a 1
+pickup a 1
+pickup b -1
+end 1
+END
+    render pair.scene out/a.wav || return
+    crossings=$(left out/a.wav | awk 'NR > 1 && $1 * last < 0 { ++n } { last = $1 } END { print n }')
+    test "$crossings" -ge 878 -a "$crossings" -le 896 || fail "found $crossings crossings, expected some 887 of 443.6 Hz"
+}
+
 # The higher modes have died after half a second: what is left crosses zero 880 times a second.
 the_pitch_is_that_of_the_scene() {
     render string.scene out/a.wav || return
@@ -149,6 +179,7 @@ the_examples_are_music() {
 for claim in \
     writes_a_stereo_wav_at_the_rate_of_the_scene \
     the_pitch_is_that_of_the_scene \
+    what_hangs_on_no_ground_drifts \
     rate_and_depth_are_what_was_asked_for \
     two_runs_are_the_same_file \
     the_unstable_is_refused_with_what_would_do \

@@ -113,7 +113,7 @@ what_is_wrong_is_refused() {
     refuse 2 'found --masses for a scene' tune $paper string.scene
     refuse 1 'nowhere.scene: No such file' tune --freq 440 --tau 1 nowhere.scene
     refuse 1 'could not tune mode 6: there is no such mode' tune --freq 440 --tau 1 --mode 6 string.scene
-    refuse 3 'could not tune mode 1: no stable system' tune --freq 2000 --tau 1 string.scene
+    refuse 3 'could not tune the lowest mode: no stable system' tune --freq 2000 --tau 1 string.scene
 }
 
 help_says_what_is_returned() {

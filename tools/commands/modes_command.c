@@ -19,13 +19,14 @@ const char modes_help[] =
     "  --csv               a line for each mode, under a line of names\n"
     "  --json              one object, with a list of modes\n"
     "\n"
-    "Of each mode: its eigenvalue, before it is sampled; the region of its poles (vibrates; "
-    "creeps,\n"
-    "real above 0; flips, real below 0; grows); the frequency that is heard, how far sampling has\n"
-    "moved it, the time in which it dies to 1/e, the larger radius of its poles, and whether it "
-    "is\n"
-    "stable. Then the verdict, that of the paper's rule where it differs, and the largest stable\n"
-    "step.\n"
+    "Of each mode: its eigenvalue, before it is sampled; its motion (vibrates; creeps, with poles\n"
+    "that are real and above 0; flips, real and below 0; grows; and of what hangs on no ground, "
+    "at\n"
+    "0 Hz: drifts, at a speed that stays; stops, where dampers make it); the frequency that is\n"
+    "heard, how far sampling has moved it, the time in which it dies to 1/e, of what stops the\n"
+    "speed, the larger radius of its poles, and whether it is stable. Then the verdict, that of "
+    "the\n"
+    "paper's rule where it differs, and the largest stable step.\n"
     "\n"
     "In CSV, two real eigenvalues are in eigenvalue_re and eigenvalue2_re, a number that does not\n"
     "exist is empty, and inf is for ever. In JSON both are null.\n"
@@ -96,6 +97,14 @@ static double heard_tau(const Mode* mode) {
   return is_stable(mode) && mode->tone.tau_s < 0.0 ? HUGE_VAL : mode->tone.tau_s;
 }
 
+/* The motion of a mode; what hangs on no ground drifts on, or is stopped by its dampers. */
+static const char* motion(const Mode* mode) {
+  if (mode->is_free && is_stable(mode)) {
+    return mode->analog[1] == 0.0 ? "drifts" : "stops";
+  }
+  return pole_region_text(mode->region);
+}
+
 static bool is_pair(const Mode* mode) {
   return cimag(mode->analog[0]) != 0.0;
 }
@@ -128,7 +137,7 @@ static void print_mode(uint32_t number, const Mode* mode) {
   }
   /* The sign ± is of two bytes and one column. */
   printf("%5lu  %-*s  %-8s", (unsigned long)number, is_pair(mode) ? 33 : 32, eigenvalue,
-         pole_region_text(mode->region));
+         motion(mode));
   print_column(14, 5, mode->tone.f0_hz);
   print_column(12, 4, mode->warp_cents);
   print_column(14, 7, heard_tau(mode));
@@ -137,6 +146,10 @@ static void print_mode(uint32_t number, const Mode* mode) {
 }
 
 static void print_verdict(const Modes* modes) {
+  if (isinf(modes->largest_step_s)) {
+    printf("stable at %.12g Hz, as at any other rate\n", modes->rate_hz);
+    return;
+  }
   printf("%s at %.12g Hz; the largest stable step is %.9g s: %.9g Hz or more\n",
          modes->is_stable ? "stable" : "unstable", modes->rate_hz, modes->largest_step_s,
          lowest_rate(modes));
@@ -170,8 +183,7 @@ static void print_csv(const Modes* modes) {
   for (uint32_t k = 0; k < modes->n_modes; ++k) {
     const Mode* const mode = &modes->mode[k];
     printf("%lu,%.17g,%.17g,%.17g,%.17g,%s,", (unsigned long)k + 1, creal(mode->analog[0]),
-           cimag(mode->analog[0]), creal(mode->analog[1]), cimag(mode->analog[1]),
-           pole_region_text(mode->region));
+           cimag(mode->analog[0]), creal(mode->analog[1]), cimag(mode->analog[1]), motion(mode));
     print_cell(mode->tone.f0_hz);
     print_cell(mode->warp_cents);
     print_cell(heard_tau(mode));
@@ -201,8 +213,7 @@ static const char* truth(bool is_true) {
 }
 
 static void print_json_mode(uint32_t number, const Mode* mode) {
-  printf("{\"mode\": %lu, \"region\": \"%s\"", (unsigned long)number,
-         pole_region_text(mode->region));
+  printf("{\"mode\": %lu, \"region\": \"%s\"", (unsigned long)number, motion(mode));
   print_pair("eigenvalues", mode->analog);
   print_pair("poles", mode->pole);
   print_member("frequency_hz", mode->tone.f0_hz);

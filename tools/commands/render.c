@@ -19,6 +19,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <time.h>
+#include <unistd.h>
 
 const char render_help[] =
     "usage: hooke render [OPTION]... IN.mid OUT.wav\n"
@@ -68,6 +70,9 @@ enum {
 };
 
 static const double USUAL_RATE_HZ = 48000.0;
+
+/* A judgement that takes longer is shown. */
+static const double PATIENCE_S = 1.0;
 
 typedef enum { KIND_SONG, KIND_SCORE, KIND_SCENE } Kind;
 
@@ -541,9 +546,42 @@ static int refuse(const Render* self, const Scene* scene, double rate_hz, double
       self->in, rate_hz, which, sufficient_rate(step_s));
 }
 
+/* A judgement that takes its time. */
+typedef struct {
+  double start_s;
+  bool is_shown;
+} Judging;
+
+static const char JUDGING[] = "judging whether it is stable; --anyway renders it unjudged: ";
+
+static double now_s(void) {
+  struct timespec now = {0};
+  (void)clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void show_judging(void* self, double share) {
+  Judging* const judging = self;
+  if (now_s() - judging->start_s > PATIENCE_S) {
+    (void)fprintf(stderr, "\r%s%3d %%", JUDGING, (int)(100.0 * share));
+    judging->is_shown = true;
+  }
+}
+
+static Status find_largest_step(const Render* self, const Scene* scene, double* step_s) {
+  Judging judging = {.start_s = now_s()};
+  const ModesWatch watch = {show_judging, &judging};
+  const bool is_watched = !self->is_quiet && isatty(STDERR_FILENO);
+  const Status status = modes_largest_step(scene->network, is_watched ? &watch : NULL, step_s);
+  if (judging.is_shown) {
+    (void)fprintf(stderr, "\r%*s\r", (int)sizeof(JUDGING) + 5, "");
+  }
+  return status;
+}
+
 static int judge(const Render* self, const Scene* scene, double rate_hz) {
   double step_s = 0.0;
-  Status status = modes_largest_step(scene->network, &step_s);
+  Status status = find_largest_step(self, scene, &step_s);
   status = !status && !(step_s > 0.0) ? STATUS_ILL_SCALED : status;
   if (status) {
     return args_fail(&self->args, ARGS_FAILURE,

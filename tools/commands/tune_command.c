@@ -24,7 +24,8 @@ const char tune_help[] =
     "  --loss S            the share of the damping that is between masses and not to the ground,\n"
     "                      0 to 1; 1 by default, as in the paper\n"
     "  --stiffness B       inharmonicity, 0 by default\n"
-    "  --mode K            which mode of a scene, from 1, the lowest by default\n"
+    "  --mode K            which mode of a scene, from 1, by default the lowest that is not of 0 "
+    "Hz\n"
     "  --csv               for machines: a line for each mode, or one for a scene, under a line "
     "of\n"
     "                      names; the string's own numbers are in every line\n"
@@ -51,10 +52,9 @@ typedef struct {
   const char* in;      /* NULL: a string */
   TuningTarget target; /* Its numbers are 0 until they are given */
   double mass_kg;
-  long n_masses; /* 0: not given */
-  long mode;
+  long n_masses;             /* 0: not given */
+  long mode;                 /* 0: the lowest that is not of 0 Hz */
   const char* string_option; /* One that was given and is for strings only */
-  bool is_mode_given;
   bool is_csv;
 } Command;
 
@@ -100,7 +100,6 @@ static bool take_option(Command* self, int index) {
   case RATE:
     return args_number(args, "--rate", args->value, 1e-9, 1e9, &self->target.rate_hz);
   case MODE:
-    self->is_mode_given = true;
     return args_whole(args, "--mode", args->value, 1, MAX_MASSES, &self->mode);
   case CSV:
     return self->is_csv = true;
@@ -132,7 +131,7 @@ static bool check(const Command* self) {
   if (self->in) {
     return true;
   }
-  if (self->is_mode_given) {
+  if (self->mode) {
     return args_fail(&self->args, false, "found --mode for a string, expected it for a scene only");
   }
   return (self->n_masses || lacks(self, "--masses, nor a scene")) &&
@@ -250,7 +249,11 @@ static int retune(const Command* self, const Scene* scene, double rate_hz) {
       retune_solve(scene->network, rate_hz, self->target.tone, (uint32_t)self->mode, &retuning);
   if (status) {
     const int code = status == STATUS_UNSTABLE ? ARGS_UNSTABLE : ARGS_FAILURE;
-    return args_fail(&self->args, code, "%s: could not tune mode %ld: %s", self->in, self->mode,
+    char which[40] = "the lowest mode";
+    if (self->mode) {
+      (void)snprintf(which, sizeof(which), "mode %ld", self->mode);
+    }
+    return args_fail(&self->args, code, "%s: could not tune %s: %s", self->in, which,
                      status_text(status));
   }
   return print_retuning(self, retuning);
@@ -271,8 +274,7 @@ static int tune_scene(const Command* self) {
 int tune_main(int argc, char** argv) {
   Command self = {.args = {.command = "hooke tune", .argc = argc, .argv = argv, .options = options},
                   .target = {.loss = 1.0},
-                  .mass_kg = 1.0,
-                  .mode = 1};
+                  .mass_kg = 1.0};
   if (!parse(&self)) {
     return ARGS_USAGE;
   }

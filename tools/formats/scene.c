@@ -34,7 +34,7 @@ typedef struct {
 
 typedef struct {
   Text text;
-  Bytes names;      /* Name each, those of one kind of point in the order of their points */
+  Bytes names;      /* Name each */
   uint32_t* slots;  /* A table of names by hash: a place in `names` plus 1, or 0 */
   uint32_t n_slots; /* A power of 2, or 0 */
   Network* network;
@@ -106,17 +106,6 @@ static bool declare(Reader* reader, Name name) {
   }
   *slot_of(reader, name.name) = n_names + 1;
   return true;
-}
-
-/* The name which a point belongs to. */
-static const Name* name_of_point(const Reader* reader, uint32_t point) {
-  size_t low = 0;
-  size_t high = reader->names.size / sizeof(Name);
-  while (high - low > 1) {
-    const size_t middle = low + (high - low) / 2;
-    *(names_of(reader)[middle].first <= point ? &low : &high) = middle;
-  }
-  return names_of(reader) + low;
 }
 
 /* Letters are those of ASCII and all that other alphabets are written with. */
@@ -338,22 +327,9 @@ static bool lacks(Reader* reader, const char* expected) {
                       expected);
 }
 
-static bool refuse_free(Reader* reader, uint32_t point) {
-  char quote[TEXT_QUOTE_SIZE];
-  const Name* const name = name_of_point(reader, point);
-  return text_fail_at(&reader->text, name->line,
-                      "found %s hanging on no ground, expected springs from it to one",
-                      text_quote(name->name, quote));
-}
-
 static bool check_network(Reader* reader) {
-  NetworkFault fault = {NETWORK_POINT, 0};
-  Status status = network_check(reader->network, &fault);
-  if (status == STATUS_EMPTY) {
-    return lacks(reader, "a mass or a string");
-  }
-  status = status ? status : network_find_free(reader->network, &fault);
-  return status == STATUS_FREE ? refuse_free(reader, fault.index) : done(reader, status);
+  const Status status = network_check(reader->network, NULL);
+  return status == STATUS_EMPTY ? lacks(reader, "a mass or a string") : done(reader, status);
 }
 
 /* An event at the end or later would never be heard of. */

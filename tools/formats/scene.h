@@ -57,7 +57,7 @@ typedef struct {
 typedef struct {
   double rate_hz;     /**< > 0 */
   double end_s;       /**< > 0; 0 if there is none */
-  Network* network;   /**< Checked, at rest, no part of it free */
+  Network* network;   /**< Checked, at rest */
   SceneEvent* events; /**< As they come in the file */
   size_t n_events;
   ScenePickup* pickups;
