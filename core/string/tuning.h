@@ -40,9 +40,9 @@
 
 /**
    The part of the stability limit that is left unused, so that no partial is above 0.86 of half the
-   rate.  A mode nearer to the limit beats with half the rate more slowly than a player's gesture, and
-   no bent clock (core/string/chain.h) keeps a gesture from feeding it: at a thousandth it can grow by
-   e in a hundredth of a second, with what is left here in half a second at the very worst.
+   rate.  A mode nearer to the limit beats with half the rate more slowly than a player's gesture,
+   and no bent clock (core/string/chain.h) keeps a gesture from feeding it: at a thousandth it can
+   grow by e in a hundredth of a second, with what is left here in half a second at the very worst.
 */
 #define TUNING_MARGIN 0.05
 

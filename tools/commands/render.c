@@ -1,3 +1,5 @@
+#define _POSIX_C_SOURCE 200809L
+
 #include "core/analysis/modes.h"
 #include "plugin/tuner_file.h"
 #include "tools/commands/args.h"
