@@ -33,6 +33,12 @@ static const double SHARPEST_PLACE = 0.13;
 static const double ONE_SLIP = 0.0635;
 static const double MORE_SLIPS_DB = 24.1;
 
+/* What it loses where its masses are a few dozen, and their corners as long as a slip [dB]; there
+ * [Hz], and how far about it [octaves]. */
+static const double ROUGH_DB = 2.0;
+static const double ROUGH_HZ = 1175.0;
+static const double ROUGH_OCTAVES = 1.0 / 3.0;
+
 /* The rehearsed partials that are taken as they are, and those, of so many, whose means tell how
  * the rest go on: the last are too few masses' own. */
 enum { REHEARSED = 16, EARLY = 5, LATE = 11, APART = LATE - EARLY };
@@ -125,7 +131,9 @@ Spectrum spectrum_of_strike(uint32_t n_masses, Strike strike, double angle1) {
 Spectrum spectrum_of_bow(double place, double angle1, double hz) {
   const double at = bow_place(place, angle1);
   const double beta = fmin(at, 1.0 - at);
-  const double lost_db = MORE_SLIPS_DB * fmax(0.0, beta - ONE_SLIP);
+  const double rough = log2(hz / ROUGH_HZ) / ROUGH_OCTAVES;
+  const double lost_db =
+      MORE_SLIPS_DB * fmax(0.0, beta - ONE_SLIP) + ROUGH_DB * exp(-rough * rough);
   return (Spectrum){
       .exciter = EXCITER_BOW,
       .angles = {2.0 * PI * at, 0.0},

@@ -3,11 +3,13 @@
 
 #include "tests/support/harps.h"
 #include "tests/support/loudness.h"
+#include "tests/support/measure.h"
 #include "tests/support/oracle.h"
 
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -30,14 +32,20 @@ static float left[MOST];
 static float right[MOST];
 
 /* A note, from what it should be [dB]. */
-static double off(Harp* harp, const HarpPatch* patch, uint32_t key, uint32_t velocity) {
+static double
+off_with(Harp* harp, const HarpPatch* patch, uint32_t key, uint32_t velocity, bool is_pedalled) {
   const double seconds = patch->exciter == EXCITER_BOW ? 1.0 : 0.5;
   const size_t n = (size_t)(seconds * harp->rate_hz);
   harps_restart(harp, patch);
+  harp_pedal(harp, 0, is_pedalled ? 1.0 : 0.0);
   harp_note_on(harp, 0, key, velocity);
   harps_run(harp, n, left, right);
   return loudness_lufs_at(harp->rate_hz, left, right, n) - LOUDNESS -
          40.0 * log10(velocity / 127.0);
+}
+
+static double off(Harp* harp, const HarpPatch* patch, uint32_t key, uint32_t velocity) {
+  return off_with(harp, patch, key, velocity, false);
 }
 
 static bool is_long(void) {
@@ -159,6 +167,49 @@ static void bows_are_as_loud(void** state) {
   assert_within("dB off, high keys", worst_high, 4.5);
 }
 
+/* The bridge, and all that it wakes, makes nothing louder; nor does a bow that pulls at it. */
+static void a_bridge_that_moves_is_as_loud(void** state) {
+  (void)state;
+  double worst = 0.0;
+  for (uint32_t way = 0; way < HARPS_N_WAYS; ++way) {
+    HarpPatch patch = harps_patch(way);
+    Harp* const harp = harps_new(48000.0, &patch);
+    Span span = nothing;
+    for (int third = 0; third <= 3; ++third) {
+      patch.resonance = third / 3.0;
+      for (uint32_t key = 33; key <= HIGHEST; key += stride(7)) {
+        stretch_to(&span, off_with(harp, &patch, key, 100, true));
+      }
+    }
+    print_span(&patch, span);
+    worst = fmax(worst, worst_of(span));
+    harp_free(harp);
+  }
+  assert_within("dB off", worst, PROMISED_DB);
+}
+
+/* A bow that is put to the string, or lifted, bangs at no key though all strings are open. */
+static void no_bow_bangs_at_the_bridge(void** state) {
+  (void)state;
+  double worst = 0.0;
+  HarpPatch patch = harps_patch(BOWED + 2);
+  Harp* const harp = harps_new(48000.0, &patch);
+  patch.resonance = 1.0;
+  for (uint32_t key = 33; key <= 108; key += stride(25)) {
+    harps_restart(harp, &patch);
+    harp_pedal(harp, 0, 1.0);
+    harp_note_on(harp, 0, key, 100);
+    harps_run(harp, MOST, left, right);
+    const double begun = measure_peak(left, MOST / 8);
+    const double held = measure_peak(left + MOST / 2, MOST / 2);
+    harp_note_off(harp, 0, key);
+    harps_run(harp, MOST / 8, left, right);
+    worst = fmax(worst, fmax(begun, measure_peak(left, MOST / 8)) / held);
+  }
+  harp_free(harp);
+  assert_within("peak at either end, over that between [dB]", 20.0 * log10(worst), 4.0);
+}
+
 /* The defaults but for one thing; all of them together are in the test above. */
 static void loudness_goes_with_the_square_of_velocity(void** state) {
   (void)state;
@@ -232,6 +283,8 @@ int main(void) {
       cmocka_unit_test(plucks_and_strikes_are_as_loud),
       cmocka_unit_test(picks_at_strings_of_many_masses_are_as_loud),
       cmocka_unit_test(bows_are_as_loud),
+      cmocka_unit_test(a_bridge_that_moves_is_as_loud),
+      cmocka_unit_test(no_bow_bangs_at_the_bridge),
       cmocka_unit_test(loudness_goes_with_the_square_of_velocity),
       cmocka_unit_test(width_loss_and_rate_do_not_matter),
       cmocka_unit_test(what_dies_at_once_is_not_played_harder),
