@@ -2,8 +2,8 @@
    A string in play: strung, played, brought to a pitch and a decay, moved onto other masses, read,
    and put to sleep.  What the strings of all instruments have in common.
 
-   It keeps its motion through every change, has at most a certain multiple of the motion that was
-   given to it, and costs nothing once it has died away.  What happens to it in its own time depends
+   It keeps its amplitude through every change of pitch, has at most a little more energy than what
+   plays it has given it, and costs nothing once it has died away.  What happens to it in its own time depends
    on nothing but when it was played and retuned, so not on how its frames are cut into calls.
 
    Time.  A voice says how far it can be run in one go (voice_stretch()): one frame while a hammer,
@@ -46,7 +46,7 @@
 #define VOICE_CHOKE_S 0.005
 
 /** What a player's gesture takes [s], and the fewest frames: a string must have the time to follow
- * it, whatever the rate, or gestures would pump it. */
+ * it, whatever the rate. */
 #define VOICE_GESTURE_S 0.004
 enum { VOICE_GESTURE_FRAMES = 192 };
 
