@@ -155,8 +155,8 @@ static void touch_ends_after_its_time(void** state) {
   guitar_free(guitar);
 }
 
-/* τ of partial k under a palm, by hand from what is printed: "it adds 40 palm² 1/s to their damping"
- * (doc/instruments.md), of which 0.02 sits between the masses. */
+/* τ of partial k under a palm, by hand from what is printed: "it adds 40 palm² 1/s to their
+ * damping" (doc/instruments.md), of which 0.02 sits between the masses. */
 static double palmed_tau_s(
     const GuitarPatch* patch, Tone open, double weight, uint32_t k, uint32_t n, double rate_hz) {
   const double tau_s = 1.0 / (1.0 / open.tau_s + 40.0 * weight * weight);
