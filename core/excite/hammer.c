@@ -30,9 +30,11 @@ static double reach(const Chain* chain, const Contact* contact, double place) {
          0.5 * sqrt(twice * contact->square / headroom);
 }
 
-/* It is over once the hammer flies away from all that the string can still do. */
+/* It is over once the hammer flies away from all that the string can still do, and has had back
+ * what the felt held a step ago. */
 static bool is_out_of_reach(const Hammer* hammer) {
-  return hammer->force <= 0.0 && hammer->velocity < 0.0 && hammer->position < -hammer->far;
+  return hammer->force <= 0.0 && hammer->before <= 0.0 && hammer->velocity < 0.0 &&
+         hammer->position < -hammer->far;
 }
 
 /* When its time is over, what the felt still holds fades. */

@@ -182,8 +182,9 @@ void guitarist_string_let_go(GuitaristHand hand) {
   }
 }
 
+/* A score may have bent it, which nobody here knows of: its next note brings all of its touch. */
 void guitarist_string_choke(GuitaristHand hand) {
-  const GuitaristTouch touch = hand.string->touch;
-  *hand.string = (GuitaristString){.touch = touch};
+  const double unknown = (double)NAN;
+  *hand.string = (GuitaristString){.touch = {unknown, unknown, unknown}};
   act(hand, GUITAR_CHOKE, 0.0, 0.0, 0.0);
 }

@@ -1,7 +1,9 @@
 /* The limiter keeps all below full scale, and its hands off what is. */
 #include "core/base/limiter.h"
+#include "tests/support/oracle.h"
 #include "tests/support/random.h"
 
+#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -86,6 +88,26 @@ static void it_bends_over_towards_full_scale(void** state) {
   assert_true(last > 0.999f);
 }
 
+/* "would be bent over towards 1 along a hyperbolic tangent", from 1.9 dB below full scale on: its
+ * slope there is 1, and so is its height in the end. */
+static void it_bends_along_a_hyperbolic_tangent(void** state) {
+  (void)state;
+  double worst = 0.0;
+  for (double in = 0.5; in < 1e3; in *= 1.03) {
+    Limiter limiter = make(true);
+    left[0] = (float)in;
+    right[0] = (float)(-0.25 * in);
+    limiter_run(&limiter, 1, left, right);
+    const double over = fmax(0.0, ((double)(float)in - 0.8) / 0.2);
+    const double printed =
+        fmin((double)(float)in, 0.8) + 0.2 * (1.0 - 2.0 / (1.0 + exp(2.0 * over)));
+    worst = fmax(worst, fabs((double)left[0] - printed));
+    worst = fmax(worst, fabs((double)right[0] + 0.25 * printed));
+  }
+  assert_within("off the curve", worst, (double)FLT_EPSILON);
+  assert_within("knee [dB]", fabs(20.0 * log10(LIMITER_KNEE) + 1.9), 0.05);
+}
+
 static void both_sides_keep_their_balance(void** state) {
   (void)state;
   Limiter limiter = make(true);
@@ -163,6 +185,7 @@ int main(void) {
       cmocka_unit_test(off_it_touches_nothing),
       cmocka_unit_test(nothing_leaves_it_above_full_scale),
       cmocka_unit_test(it_bends_over_towards_full_scale),
+      cmocka_unit_test(it_bends_along_a_hyperbolic_tangent),
       cmocka_unit_test(both_sides_keep_their_balance),
       cmocka_unit_test(it_lets_go_slowly_and_wholly),
       cmocka_unit_test(each_side_and_sign_counts_alike),

@@ -2,6 +2,7 @@
 #include "core/excite/bow.h"
 
 #include "core/excite/contact.h"
+#include "tests/support/oracle.h"
 #include "tests/support/strung.h"
 
 #include <math.h>
@@ -111,11 +112,34 @@ static void a_stroke_takes_over_from_the_one_before(void** state) {
   }
 }
 
+/* The most that Schelleng's bow can press: 2 √k1 b/β, which the corner brings, is what friction
+ * falls by at the speed b/β with which the string slips back. No pressure is 0.65 of it, all 1.6.
+ */
+static void force_is_a_share_of_schellengs_most(void** state) {
+  (void)state;
+  double worst = 0.0;
+  for (uint32_t key = 33; key <= 81; key += 6) {
+    for (int tenth = 0; tenth <= 10; ++tenth) {
+      Strung strung;
+      Bow bow = {0};
+      strung_key(&strung, memory, key, 48000.0, 128, 2.0);
+      bow_start(&bow, &strung.chain, (Stroke){0.1, 0.1 * tenth, 0.2, 0.04, 0.03}, strung.angle1,
+                strung.rate_hz);
+      const double fall = 0.8 - (0.3 + 0.5 / (1.0 + 1.0));
+      const double most = 2.0 * bow.drawn.goal / (0.1 * fall);
+      const double share = 0.65 * pow(1.6 / 0.65, 0.1 * tenth);
+      worst = fmax(worst, fabs(bow.pressed.goal / (share * most) - 1.0));
+    }
+  }
+  assert_within("force, relative", worst, 1e-12);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_swell_goes_in_a_straight_line),
       cmocka_unit_test(a_swollen_stroke_is_a_stronger_stroke),
       cmocka_unit_test(a_stroke_takes_over_from_the_one_before),
+      cmocka_unit_test(force_is_a_share_of_schellengs_most),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

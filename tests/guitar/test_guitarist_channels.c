@@ -192,6 +192,23 @@ static void a_string_has_the_touch_of_who_plays_it(void** state) {
   player_free(player);
 }
 
+/* A score may have bent a string, which no channel knows of: after all sound off its next note
+ * brings all that a channel does, be it nothing. */
+static void what_was_silenced_is_touched_anew(void** state) {
+  (void)state;
+  const Player player = player_how((GuitaristHow){0});
+  on(player, 3, 40, HARD);
+  player_run(player, 100);
+  assert_true(isnan(value_on(player, GUITAR_BEND, 5)));
+  guitarist_all_sound_off(player.guitarist, 3);
+  on(player, 3, 40, HARD);
+  player_run(player, 100);
+  assert_near(value_on(player, GUITAR_BEND, 5), 0.0);
+  assert_near(value_on(player, GUITAR_VIBRATO, 5), 0.0);
+  assert_near(value_on(player, GUITAR_GAIN, 5), 1.0);
+  player_free(player);
+}
+
 /* A member of a zone, whose next note is to be bent and not what rings on. */
 static void what_is_let_go_keeps_its_touch(void** state) {
   (void)state;
@@ -422,6 +439,7 @@ int main(void) {
       cmocka_unit_test(a_string_that_nobody_played_follows_who_moves),
       cmocka_unit_test(gestures_are_of_the_strings_that_play_the_channels_notes),
       cmocka_unit_test(a_string_has_the_touch_of_who_plays_it),
+      cmocka_unit_test(what_was_silenced_is_touched_anew),
       cmocka_unit_test(what_is_let_go_keeps_its_touch),
       cmocka_unit_test(what_is_let_go_beside_a_note_keeps_its_touch),
       cmocka_unit_test(a_keys_pressure_is_its_own),

@@ -4,6 +4,7 @@
 #include "tests/support/oracle.h"
 #include "tests/support/random.h"
 
+#include <complex.h>
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -13,6 +14,8 @@
 #include <string.h>
 
 #include <cmocka.h>
+
+static const double PI = 3.14159265358979323846;
 
 enum { STEPS = 300 };
 
@@ -135,8 +138,11 @@ static void every_layout_is_the_same_string(void** state) {
   }
 }
 
-/* A glide's coefficients move by the same amount in every step, the last one's being the goal's. */
-static StringCoefs on_the_way(StringCoefs from, StringCoefs to, double share) {
+/* "such that the pitch moves by about the same interval in each step": k1 by the same factor, and
+ * the others along the straight line that it is on; the last step's are the goal's. */
+static StringCoefs on_the_way(StringCoefs from, StringCoefs to, double way) {
+  const double factor = to.k1 / from.k1;
+  const double share = fabs(factor - 1.0) < 1e-9 ? way : (pow(factor, way) - 1.0) / (factor - 1.0);
   return (StringCoefs){
       .k1 = from.k1 + share * (to.k1 - from.k1),
       .k2 = from.k2 + share * (to.k2 - from.k2),
@@ -144,6 +150,32 @@ static StringCoefs on_the_way(StringCoefs from, StringCoefs to, double share) {
       .z0 = from.z0 + share * (to.z0 - from.z0),
       .z1 = from.z1 + share * (to.z1 - from.z1),
   };
+}
+
+/* How fast the fundamental turns in a step, √(1 − g) sin ω: what is imaginary of its pole. */
+static double turn_of(StringCoefs coefs, uint32_t n) {
+  const double lambda = pow(2.0 * sin(0.5 * PI / (n + 1.0)), 2.0);
+  double complex poles[2];
+  oracle_mass_poles(coefs.k1 * lambda + coefs.k2 * lambda * lambda + coefs.k3 * pow(lambda, 3.0),
+                    coefs.z0 + coefs.z1 * lambda, poles);
+  return fabs(cimag(poles[0]));
+}
+
+/* A step with a bent clock: half of the pull is the springs' from before, for u − ½ K x goes on
+ * faster by the ratio of turns. */
+static void glide_step(StringCoefs from, StringCoefs to, uint32_t n, double* x, double* u) {
+  const double ratio = turn_of(to, n) / turn_of(from, n);
+  const StringCoefs half = {
+      .k1 = 0.5 * (ratio * from.k1 + to.k1),
+      .k2 = 0.5 * (ratio * from.k2 + to.k2),
+      .k3 = 0.5 * (ratio * from.k3 + to.k3),
+      .z0 = to.z0,
+      .z1 = to.z1,
+  };
+  for (uint32_t i = 0; i < n; ++i) {
+    u[i] *= ratio;
+  }
+  oracle_step(half, n, x, u);
 }
 
 enum { TURNS = 18, TURN_STEPS = 20 };
@@ -175,7 +207,8 @@ static double distance_of_glides(Chain* chain) {
     chain_run(chain, TURN_STEPS, taps, n_taps,
               (float* const[]){read[0], read[1], read[2], read[3]});
     for (int m = 0; m < TURN_STEPS; ++m) {
-      oracle_step(on_the_way(from, to, (m + 1.0) / TURN_STEPS), n, truth.x, truth.u);
+      glide_step(on_the_way(from, to, (double)m / TURN_STEPS),
+                 on_the_way(from, to, (m + 1.0) / TURN_STEPS), n, truth.x, truth.u);
       for (uint32_t t = 0; t < n_taps; ++t) {
         const double wanted = (double)taps[t].weight[0] * truth.x[taps[t].mass[0]] +
                               (double)taps[t].weight[1] * truth.x[taps[t].mass[1]];

@@ -69,7 +69,8 @@ static void largest_strings_are_those_of_the_table(void** state) {
       assert_int_equal(truth, rows[row].n_masses[octave]);
       assert_int_equal(found, tuning_max_masses(&target, UINT32_MAX));
       assert_int_equal(found, most_masses(&target, MOST_MASSES, TUNING_MARGIN, TUNING_LAST_MARGIN));
-      assert_true(found == truth || found + 1 == truth);
+      /* The top of a flexible string goes with the square of its masses, of others higher. */
+      assert_true(found <= truth && found + 2.0 >= sqrt(1.0 - TUNING_MARGIN) * (truth + 1.0));
       if (truth < MOST_DENSE) {
         assert_true(radius_of(&target, truth) <= 1.0 + ON_CIRCLE);
         assert_true(radius_of(&target, truth + 1) > 1.0 + ON_CIRCLE);

@@ -34,9 +34,10 @@ render --list-presets
 render --list-controls
 render --tail 0 note.mid out/a.wav
 END
+    # These lose it before they are done.
     for words in 'bench start --csv' 'bench survey --masses 2 --seconds 0'; do
         "$HOOKE_BIN" $words >/dev/full 2>errors
-        same "$? $(cat errors)" '1 hooke: could not write all of the answer' "hooke $words >/dev/full"
+        same "$? $(cat errors)" '1 hooke: could not write all of the answer: No space left on device' "hooke $words >/dev/full"
     done
 }
 

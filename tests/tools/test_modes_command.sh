@@ -67,6 +67,8 @@ the_table_is_that_of_the_paper() {
         grep -qF " $tau " log || fail "no mode of $tau s in '$(cat log)'"
     done
     same "$(grep -c 'vibrates' log)" 5 'modes that vibrate'
+    printf 'rate 48000\nmass a 1\nground g\nspring a g 1e6\nend 1\n' >undamped.scene
+    "$HOOKE_BIN" modes undamped.scene | grep -q ' 0 ± 1000j' || fail 'what nothing damps has an eigenvalue of -0'
     grep -q '^stable at 6000 Hz; the largest stable step is ' log || fail "no verdict in '$(cat log)'"
     ! grep -q paper log || fail "the paper's rule does not differ here: '$(cat log)'"
 }

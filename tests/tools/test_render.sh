@@ -241,6 +241,8 @@ settings_out_of_range_are_refused() {
 plugins_that_are_not_there_are_refused() {
     refuse 1 'plugin <urn:nobody:plays>: not found' render --plugin urn:nobody:plays note.mid out/x.wav
     refuse 1 "found no URI" render --plugin nobody note.mid out/x.wav
+    refuse 1 'did you mean urn:hooke:guitar?' render --plugin urn:hooke:guitra note.mid out/x.wav
+    refuse 1 'did you mean urn:hooke:strings?' render --list-presets --plugin urn:hook:string
 }
 
 a_failure_leaves_the_old_file_alone() {

@@ -275,6 +275,21 @@ static void whole_is_stable_up_to_the_limit_and_not_beyond(void** state) {
   }
 }
 
+/* "60 Hz, half the critical damping; at rates below 960 Hz, a sixteenth of the rate", and "a
+ * string's mass is 0.01/(1 + f0/110 Hz) of the bridge's". */
+static void bridge_and_masses_are_as_printed(void** state) {
+  (void)state;
+  for (double rate_hz = 100.0; rate_hz < 1e6; rate_hz *= 1.7) {
+    const double omega = 2.0 * PI * (rate_hz < 960.0 ? rate_hz / 16.0 : 60.0);
+    const Pole printed = pole_from_analog(rate_hz, omega, omega);
+    const Pole bare = bridge_at(rate_hz).bare;
+    assert_true(fabs(bare.a / printed.a - 1.0) < 1e-12 && fabs(bare.g / printed.g - 1.0) < 1e-12);
+  }
+  for (double f0_hz = 20.0; f0_hz < 5000.0; f0_hz *= 1.3) {
+    assert_true(fabs(bridge_mass(f0_hz) * (1.0 + f0_hz / 110.0) / 0.01 - 1.0) < 1e-12);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(string_on_the_bridge_has_its_pitch_and_decay),
@@ -282,6 +297,7 @@ int main(void) {
       cmocka_unit_test(strings_at_rest_leave_the_bridge_its_spring),
       cmocka_unit_test(headroom_is_what_is_left_of_the_limit),
       cmocka_unit_test(whole_is_stable_up_to_the_limit_and_not_beyond),
+      cmocka_unit_test(bridge_and_masses_are_as_printed),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,6 +9,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -119,10 +120,15 @@ static int run(int argc, char** argv) {
   return command->run(argc - 1, argv + 1);
 }
 
-/* What is said could get lost at last: in a buffer. */
+/* What is said could get lost at last: in a buffer. Of what was lost before one more byte tells
+ * why. */
 static int finish(int code) {
+  const bool is_lost = ferror(stdout);
+  if (is_lost) {
+    (void)putchar('\n');
+  }
   errno = 0;
-  if (!fflush(stdout) && !ferror(stdout)) {
+  if (!fflush(stdout) && !is_lost) {
     return code;
   }
   return args_fail(&HOOKE, ARGS_FAILURE, "could not write all of the answer%s%s", errno ? ": " : "",

@@ -131,7 +131,8 @@ static void print_mode(uint32_t number, const Mode* mode) {
   char eigenvalue[64];
   const double complex* const s = mode->analog;
   if (is_pair(mode)) {
-    (void)snprintf(eigenvalue, sizeof(eigenvalue), "%.7g ± %.10gj", creal(s[0]), cimag(s[0]));
+    /* Nought has no sign. */
+    (void)snprintf(eigenvalue, sizeof(eigenvalue), "%.7g ± %.10gj", 0.0 + creal(s[0]), cimag(s[0]));
   } else {
     (void)snprintf(eigenvalue, sizeof(eigenvalue), "%.9g, %.9g", creal(s[0]), creal(s[1]));
   }

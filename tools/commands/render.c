@@ -2,6 +2,7 @@
 
 #include "core/analysis/modes.h"
 #include "plugin/tuner_file.h"
+#include "tools/bench/bench_clock.h"
 #include "tools/commands/args.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/near_miss.h"
@@ -21,7 +22,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <time.h>
 #include <unistd.h>
 
 const char render_help[] =
@@ -313,8 +313,23 @@ static int write_sound(const Render* self, PlaySource source) {
 
 /* Songs and scores, with a host */
 
+/* One that is not found may be nearly one of ours. */
+static const char* hint_at_plugin(const char* uri, char hint[HINT_SIZE]) {
+  static const char* const ours[] = {STRINGS_PLUGIN, GUITAR_PLUGIN};
+  NearMiss miss = near_miss_of(uri);
+  *hint = '\0';
+  for (size_t i = 0; i < sizeof(ours) / sizeof(ours[0]); ++i) {
+    if (!strcmp(uri, ours[i])) {
+      return hint;
+    }
+    near_miss_try(&miss, ours[i]);
+  }
+  return near_miss_hint(&miss, hint, HINT_SIZE);
+}
+
 static Host* make_host(const Render* self, double rate_hz) {
   char bundle[PATH_SIZE];
+  char hint[HINT_SIZE];
   char error[256] = "";
   const HostConfig config = {.rate_hz = rate_hz,
                              .max_block = (uint32_t)self->block,
@@ -322,7 +337,7 @@ static Host* make_host(const Render* self, double rate_hz) {
                              .is_silent = self->is_quiet};
   Host* const host = host_new_with(self->plugin, &config, error, sizeof(error));
   if (!host) {
-    args_fail(&self->args, ARGS_FAILURE, "%s", error);
+    args_fail(&self->args, ARGS_FAILURE, "%s%s", error, hint_at_plugin(self->plugin, hint));
   }
   return host;
 }
@@ -556,22 +571,16 @@ typedef struct {
 
 static const char JUDGING[] = "judging whether it is stable; --anyway renders it unjudged: ";
 
-static double now_s(void) {
-  struct timespec now = {0};
-  (void)clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static void show_judging(void* self, double share) {
   Judging* const judging = self;
-  if (now_s() - judging->start_s > PATIENCE_S) {
+  if (bench_clock_wall_s() - judging->start_s > PATIENCE_S) {
     (void)fprintf(stderr, "\r%s%3d %%", JUDGING, (int)(100.0 * share));
     judging->is_shown = true;
   }
 }
 
 static Status find_largest_step(const Render* self, const Scene* scene, double* step_s) {
-  Judging judging = {.start_s = now_s()};
+  Judging judging = {.start_s = bench_clock_wall_s()};
   const ModesWatch watch = {show_judging, &judging};
   const bool is_watched = !self->is_quiet && isatty(STDERR_FILENO);
   const Status status = modes_largest_step(scene->network, is_watched ? &watch : NULL, step_s);
