@@ -13,6 +13,9 @@ KINDS = {
     'sanitize_threads': ('ThreadSanitizer', ['-fsanitize=thread'], ['plugin'], 'test_plugin_threads test_plugin_scale_state'),
 }
 
+# Which LAPACK writes for, though they are in those folders: what it writes would pass for unwritten.
+LAPACKS = {'sanitize_memory': ['test_bridge', 'test_fuzz_modes']}
+
 FLAGS = ['-O2', '-g', '-w', '-fno-omit-frame-pointer', '-fno-sanitize-recover=all']
 
 
@@ -50,7 +53,8 @@ def folders(kind):
 def programs(kind, programs):
     """those of all (name, command) pairs that are run"""
     names = KINDS[kind][3].split()
-    return [program for program in programs if not names or program[0] in names]
+    unseen = LAPACKS.get(kind, [])
+    return [program for program in programs if (not names or program[0] in names) and program[0] not in unseen]
 
 
 def skipped(bld, kind):
