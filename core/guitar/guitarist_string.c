@@ -7,6 +7,9 @@ static const double PULL_OFF = 0.5;
 
 static const double VIBRATO_HZ = 5.5;
 
+/* Unlike every touch that there is: a script may have bent the string, too. */
+static const GuitaristTouch anything = {(double)NAN, (double)NAN, (double)NAN};
+
 static uint32_t bit(uint32_t channel) {
   return UINT32_C(1) << channel;
 }
@@ -183,7 +186,6 @@ void guitarist_string_let_go(GuitaristHand hand) {
 }
 
 void guitarist_string_choke(GuitaristHand hand) {
-  const GuitaristTouch touch = hand.string->touch;
-  *hand.string = (GuitaristString){.touch = touch};
+  *hand.string = (GuitaristString){.touch = anything};
   act(hand, GUITAR_CHOKE, 0.0, 0.0, 0.0);
 }
