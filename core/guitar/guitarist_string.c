@@ -7,6 +7,9 @@ static const double PULL_OFF = 0.5;
 
 static const double VIBRATO_HZ = 5.5;
 
+/* Unlike every touch that there is: a script may have bent the string, too. */
+static const GuitaristTouch anything = {(double)NAN, (double)NAN, (double)NAN};
+
 static uint32_t bit(uint32_t channel) {
   return UINT32_C(1) << channel;
 }
@@ -184,7 +187,6 @@ void guitarist_string_let_go(GuitaristHand hand) {
 
 /* A score may have bent it, which nobody here knows of: its next note brings all of its touch. */
 void guitarist_string_choke(GuitaristHand hand) {
-  const double unknown = (double)NAN;
-  *hand.string = (GuitaristString){.touch = {unknown, unknown, unknown}};
+  *hand.string = (GuitaristString){.touch = anything};
   act(hand, GUITAR_CHOKE, 0.0, 0.0, 0.0);
 }

@@ -117,12 +117,16 @@ static bool fit(Voice* voice, const TuningTarget* target, StringCoefs* coefs) {
   return !tuning_fit(target, n_masses, coefs);
 }
 
-static bool retune(Voice* voice, const TuningTarget* target, uint32_t n_glide) {
+/* What is tied goes in even steps, as its tie does. */
+static bool retune(Voice* voice, const TuningTarget* target, bool is_tied, uint32_t n_glide) {
   StringCoefs coefs = {0};
   if (!fit(voice, target, &coefs)) {
     return false;
   }
   note_design(voice, target->tone.f0_hz, coefs);
+  if (is_tied) {
+    chain_share(&voice->chain, true);
+  }
   chain_glide(&voice->chain, coefs, n_glide);
   hold_back(voice, n_glide);
   voice->n_until_check = least(voice->n_until_check, n_glide + GLIDE_SPREAD * (1 + voice->phase));
@@ -137,12 +141,12 @@ retune_tied(Voice* voice, const TuningTarget* target, BridgeHold hold, uint32_t 
   uint32_t n_masses = 0;
   tie_take_masses(tie, &voice->chain);
   if (!tie_is_wanted(hold) && !tie_is_on(tie)) {
-    return retune(voice, target, n_glide);
+    return retune(voice, target, false, n_glide);
   }
   do {
     n_masses = voice->chain.n_masses;
     const TuningTarget own = bridge_correct(voice->bridge, *target, n_masses, hold, &tie->shift);
-    if (!retune(voice, &own, n_glide)) {
+    if (!retune(voice, &own, true, n_glide)) {
       return false;
     }
   } while (voice->chain.n_masses < n_masses);
