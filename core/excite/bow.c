@@ -36,6 +36,7 @@ static const double HEAVIEST = 1.6;
 /* Periods over which what is steady in its pull is found, times 2π, and the share of a lift in
  * which what is held against that is let go, once the hair is off. */
 static const double STEADY_PERIODS = 16.0;
+static const double MOST_SHARE = 0.2; /* In a step: a follower that is hasty is none */
 static const double LETTING_GO = 1.0 / 3.0;
 
 /* The most that it can swell to. */
@@ -139,7 +140,10 @@ static uint32_t frames_of(double time_s, double rate_hz) {
 void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, double rate_hz) {
   const double place = bow_place(stroke.place, angle1);
   const double beta = fmin(place, 1.0 - place);
-  const double speed = 8.0 * beta * (1.0 - beta) * stroke.amplitude * angle1 / (2.0 * PI);
+  /* Near half the rate a place hardly moves from one step to the next but one, however far it
+   * swings. */
+  const double swing = sin(angle1);
+  const double speed = 8.0 * beta * (1.0 - beta) * stroke.amplitude * swing / (2.0 * PI);
   /* Schelleng's most: the corner brings 2 √k1 b/β, and friction falls by so much at its slip. */
   const double heavy = 2.0 * (1.0 + HALF_WAY) / (beta * (STATIC - DYNAMIC));
   const double force = heavy * LIGHTEST * pow(HEAVIEST / LIGHTEST, stroke.pressure) * speed;
@@ -184,10 +188,10 @@ void bow_notice(Bow* bow, const Chain* chain) {
 
 /* A follower that has caught up with what goes in a straight line, as a stroke's beginning does. */
 static void follow_steady(Bow* bow) {
-  const double share = bow->haste * bow->listens;
+  const double share = fmin(MOST_SHARE, bow->haste * bow->listens);
   const double ahead = bow->friction - bow->steady;
-  bow->steadily += share * share * ahead;
-  bow->steady += bow->steadily + 2.0 * share * ahead;
+  bow->steadily += share * ahead;
+  bow->steady += share * (bow->steadily + 2.0 * ahead);
 }
 
 bool bow_act(Bow* bow, Chain* chain) {

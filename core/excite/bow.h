@@ -72,7 +72,7 @@ typedef struct {
   double friction; /**< f of the last step, in h²/m */
   Line held;       /**< Share of what is steady that is held against */
   double steady;   /**< What of the friction has been there for some periods */
-  double steadily; /**< What that grows by per step */
+  double steadily; /**< What that grows by in the string's own time */
   double listens;  /**< How fast that is found, per step */
   double work; /**< What it gave to the string in the last step, (f − held · steady) eᵀ(u' + u)/2 */
   uint32_t n_lift; /**< Steps that it takes to lift it */

@@ -35,7 +35,7 @@ static const double MORE_SLIPS_DB = 24.1;
 
 /* What it loses where its masses are a few dozen, and their corners as long as a slip [dB]; there
  * [Hz], and how far about it [octaves]. */
-static const double ROUGH_DB = 2.0;
+static const double ROUGH_DB = 1.2;
 static const double ROUGH_HZ = 1175.0;
 static const double ROUGH_OCTAVES = 1.0 / 3.0;
 
