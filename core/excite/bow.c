@@ -33,12 +33,6 @@ static const double NODE_WIDTH = 0.015;
 static const double LIGHTEST = 0.65;
 static const double HEAVIEST = 1.6;
 
-/* Periods over which what is steady in its pull is found, times 2π, and the share of a lift in
- * which what is held against that is let go, once the hair is off. */
-static const double STEADY_PERIODS = 16.0;
-static const double MOST_SHARE = 0.2; /* In a step: a follower that is hasty is none */
-static const double LETTING_GO = 1.0 / 3.0;
-
 /* The most that it can swell to. */
 static const double STRONGEST = 2.0;
 
@@ -96,11 +90,7 @@ static void follow(Bow* bow, const Chain* chain) {
   (void)line_next(&bow->paced);
   (void)line_next(&bow->pressed);
   bow->hair = bow->haste * bow->strength.value * bow->drawn.value;
-  (void)line_next(&bow->held);
-  if (bow->is_lifted && bow->pressed.n_left == 0 && bow->held.goal > 0.0) {
-    line_to(&bow->held, 0.0, (uint32_t)ceil(LETTING_GO * bow->n_lift));
-  }
-  bow->is_active = !bow->is_lifted || bow->held.goal > 0.0 || bow->held.n_left > 0;
+  bow->is_active = !bow->is_lifted || bow->pressed.n_left > 0;
 }
 
 /* What comes next is seen from where the bow will be. */
@@ -118,8 +108,6 @@ static void take_over(Bow* bow, double spring) {
   bow->drawn.value *= now;
   bow->paced.value *= now;
   bow->pressed.value *= now;
-  bow->steady *= bow->held.value;
-  bow->steadily *= bow->held.value;
   bow->is_lifted = false;
 }
 
@@ -157,14 +145,12 @@ void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, doubl
     line_set(&bow->paced, speed);
   }
   line_set(&bow->strength, 1.0);
-  line_set(&bow->held, 1.0);
   line_to(&bow->place, place, n_attack);
   line_to(&bow->drawn, speed, n_attack);
   line_to(&bow->paced, speed, n_attack);
   line_to(&bow->pressed, force, frames_of(0.5 * stroke.attack_s, rate_hz));
   bow->pace = chain_pace(chain);
   bow->haste = 1.0;
-  bow->listens = angle1 / STEADY_PERIODS;
   bow->n_lift = frames_of(stroke.release_s, rate_hz);
   bow->spring = spring;
   bow_notice(bow, chain);
@@ -177,21 +163,13 @@ void bow_swell(Bow* bow, double strength, uint32_t n_frames) {
 void bow_lift(Bow* bow) {
   if (!bow->is_lifted) {
     bow->is_lifted = true;
-    line_to(&bow->pressed, 0.0, (uint32_t)((1.0 - LETTING_GO) * bow->n_lift));
+    line_to(&bow->pressed, 0.0, bow->n_lift);
   }
 }
 
 void bow_notice(Bow* bow, const Chain* chain) {
   const Contact contact = contact_at(chain, bow->place.value);
   bow->before = contact_velocity(chain, &contact);
-}
-
-/* A follower that has caught up with what goes in a straight line, as a stroke's beginning does. */
-static void follow_steady(Bow* bow) {
-  const double share = fmin(MOST_SHARE, bow->haste * bow->listens);
-  const double ahead = bow->friction - bow->steady;
-  bow->steadily += share * ahead;
-  bow->steady += share * (bow->steadily + 2.0 * ahead);
 }
 
 bool bow_act(Bow* bow, Chain* chain) {
@@ -202,8 +180,6 @@ bool bow_act(Bow* bow, Chain* chain) {
   const double impedance = sqrt(chain->now.k1);
   const double beta = fmin(bow->place.value, 1.0 - bow->place.value);
   follow(bow, chain);
-  const double held = bow->held.value * bow->steady;
-  contact_push(chain, &contact, -held);
   const double after = contact_velocity(chain, &contact);
   const double spring = impedance * bow->haste * bow->spring;
   const double roll = 1.0 / (impedance * ROLL + 0.5 * spring);
@@ -220,8 +196,7 @@ bool bow_act(Bow* bow, Chain* chain) {
   bow->rolled += roll * (bow->friction - spring * bow->rolled);
   contact_push(chain, &contact, bow->friction);
   const double now = after + contact.square * bow->friction;
-  bow->work = 0.5 * (bow->friction - held) * (now + bow->before);
-  follow_steady(bow);
+  bow->work = 0.5 * bow->friction * (now + bow->before);
   bow->before = now;
   move_on(bow, chain);
   return bow->is_active;

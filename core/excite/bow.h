@@ -23,10 +23,6 @@
    So in a step the string's energy grows by f (v + b − w), in which f v ≤ 0 is heat, and f w is r
    w² and what ½ s q² grows by: string and roll together get at most the bow's f b.
 
-   What of the friction is steady over some periods does nothing but to pull the string aside, and
-   what it is tied to with it, for as long as it is bowed: a bang at both ends of each note.  So a
-   force that follows the mean of f is held against it.
-
    The string moves as Helmholtz's then: one slip a period in most cases, and at its own pitch but
    for some cents, which core/voice/intonation.h makes good.  In the middle of the string and on the
    node of its fourth partial nothing holds it to its period, and where a slip would take less than
@@ -70,11 +66,7 @@ typedef struct {
   double hair;     /**< b of the last step */
   double slip;     /**< v of the last step */
   double friction; /**< f of the last step, in h²/m */
-  Line held;       /**< Share of what is steady that is held against */
-  double steady;   /**< What of the friction has been there for some periods */
-  double steadily; /**< What that grows by in the string's own time */
-  double listens;  /**< How fast that is found, per step */
-  double work; /**< What it gave to the string in the last step, (f − held · steady) eᵀ(u' + u)/2 */
+  double work;     /**< What it gave to the string in the last step, f eᵀ(u' + u)/2 */
   uint32_t n_lift; /**< Steps that it takes to lift it */
   BowState state;
   bool is_lifted;

@@ -14,7 +14,7 @@ static const double WIDER = 1.0005;
   0.3, within 1.5 dB in the mean.  B; ε² at first, what of it the mode loses in a radian of the
   fundamental, and what the partial's own square adds.
 */
-static const double BOW_PUSH = 2.87;
+static const double BOW_PUSH = 2.69;
 static const double HOLD = 0.0043;
 static const double HOLD_LOSS = 2.0;
 static const double HOLD_PARTIAL = 1.43e-5;
@@ -32,12 +32,6 @@ static const double SHARPEST_PLACE = 0.13;
  * often [dB of each length]. */
 static const double ONE_SLIP = 0.0635;
 static const double MORE_SLIPS_DB = 24.1;
-
-/* What it loses where its masses are a few dozen, and their corners as long as a slip [dB]; there
- * [Hz], and how far about it [octaves]. */
-static const double ROUGH_DB = 1.2;
-static const double ROUGH_HZ = 1175.0;
-static const double ROUGH_OCTAVES = 1.0 / 3.0;
 
 /* The rehearsed partials that are taken as they are, and those, of so many, whose means tell how
  * the rest go on: the last are too few masses' own. */
@@ -131,9 +125,7 @@ Spectrum spectrum_of_strike(uint32_t n_masses, Strike strike, double angle1) {
 Spectrum spectrum_of_bow(double place, double angle1, double hz) {
   const double at = bow_place(place, angle1);
   const double beta = fmin(at, 1.0 - at);
-  const double rough = log2(hz / ROUGH_HZ) / ROUGH_OCTAVES;
-  const double lost_db =
-      MORE_SLIPS_DB * fmax(0.0, beta - ONE_SLIP) + ROUGH_DB * exp(-rough * rough);
+  const double lost_db = MORE_SLIPS_DB * fmax(0.0, beta - ONE_SLIP);
   return (Spectrum){
       .exciter = EXCITER_BOW,
       .angles = {2.0 * PI * at, 0.0},

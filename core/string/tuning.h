@@ -39,12 +39,13 @@
 #include <stdint.h>
 
 /**
-   The part of the stability limit that is left unused, so that no partial is above 0.86 of half the
+   The part of the stability limit that is left unused, so that no partial is above 0.91 of half the
    rate.  A mode nearer to the limit beats with half the rate more slowly than a player's gesture,
    and no bent clock (core/string/chain.h) keeps a gesture from feeding it: at a thousandth it can
-   grow by e in a hundredth of a second, with what is left here in half a second at the very worst.
+   grow by e in a hundredth of a second, with what is left here in some twentieths at the very
+   worst.
 */
-#define TUNING_MARGIN 0.05
+#define TUNING_MARGIN 0.02
 
 /** The same of a note so high that one mass is all it can have; its clock is bent exactly. */
 #define TUNING_LAST_MARGIN 1e-4

@@ -134,14 +134,10 @@ static void step(Played* played) {
   Motion* const after = &motions[before == &motions[0]];
   strung_step(&played->strung, 0);
   hammer_act(hammer, chain);
-  const double held = bow->steady;
   bow_act(bow, chain);
   strung_read(&played->strung, after);
   played->current = after;
-  /* The bow's, and that of what is held against it, by how far its place went. */
-  const double pull = bow->friction - bow->held.value * held;
-  const double moved = pull != 0.0 ? bow->work / pull : 0.0;
-  const double work = was_bowed ? bow->friction * bow->hair - bow->held.value * held * moved : 0.0;
+  const double work = was_bowed ? bow->friction * bow->hair : 0.0;
   const double lost = strung_lost(before, after, chain->now);
   const double energy = all_energy(played);
   played->size = fmax(played->size, fmax(energy, fabs(work)));

@@ -179,7 +179,7 @@ static void every_fret_has_its_pitch_and_its_decay(void** state) {
 static void high_e_holds_what_is_stable(void** state) {
   (void)state;
   static const uint32_t expected[] = {
-      [PARTIALS_LUMPED] = 69, [PARTIALS_TRUE] = 69, [PARTIALS_TRUEST] = 68};
+      [PARTIALS_LUMPED] = 71, [PARTIALS_TRUE] = 70, [PARTIALS_TRUEST] = 70};
   for (Partials partials = PARTIALS_LUMPED; partials <= PARTIALS_TRUEST; ++partials) {
     GuitarPatch patch = guitars_patch();
     patch.string.partials = partials;
