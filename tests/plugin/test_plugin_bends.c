@@ -29,8 +29,8 @@ typedef struct {
  * stays. A bow goes on playing, at every pitch a little differently. */
 static const Instrument instruments[] = {
     {"plucked", 0, 0, 1.0, 4.0, 0.05},        {"struck", 0, 1, 1.0, 4.0, 0.05},
-    {"guitar", 1, 0, 1.0, 2.0, 0.05},         {"plucked, whole", 0, 0, 128.0, 4.0, 0.05},
-    {"struck, whole", 0, 1, 128.0, 4.0, 0.2}, {"bowed, whole", 0, 2, 128.0, 4.0, 1.5},
+    {"guitar", 1, 0, 1.0, 2.0, 0.05},         {"plucked, whole", 0, 0, 128.0, 4.0, 0.5},
+    {"struck, whole", 0, 1, 128.0, 4.0, 0.5}, {"bowed, whole", 0, 2, 128.0, 4.0, 1.5},
     {"guitar, whole", 1, 0, 80.0, 2.0, 0.05},
 };
 
