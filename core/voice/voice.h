@@ -3,8 +3,9 @@
    and put to sleep.  What the strings of all instruments have in common.
 
    It keeps its amplitude through every change of pitch, has at most a little more energy than what
-   plays it has given it, and costs nothing once it has died away.  What happens to it in its own time depends
-   on nothing but when it was played and retuned, so not on how its frames are cut into calls.
+   plays it has given it, and costs nothing once it has died away.  What happens to it in its own
+   time depends on nothing but when it was played and retuned, so not on how its frames are cut into
+   calls.
 
    Time.  A voice says how far it can be run in one go (voice_stretch()): one frame while a hammer,
    a bow or a finger touches it, else until a glide or a piece of its motion ends, or it is due to
