@@ -28,6 +28,9 @@ static bool is_plain(const struct stat* status) {
   return S_ISREG(status->st_mode);
 }
 
+/* Some systems count what is read at once in less than a size. */
+enum { MOST_AT_ONCE = 1 << 20 };
+
 /* As many bytes as it says to have: a file of the kernel says that it has none, and may keep who
  * reads it waiting for ever. */
 static bool read_all(int file, off_t size, Text* text) {
@@ -35,7 +38,9 @@ static bool read_all(int file, off_t size, Text* text) {
   bool is_good = text->bytes;
   ssize_t n = 1;
   while (is_good && n > 0 && text->n_bytes < (size_t)size) {
-    n = read(file, text->bytes + text->n_bytes, (size_t)size - text->n_bytes);
+    const size_t left = (size_t)size - text->n_bytes;
+    const unsigned part = left < MOST_AT_ONCE ? (unsigned)left : MOST_AT_ONCE;
+    n = read(file, text->bytes + text->n_bytes, part);
     is_good = n >= 0;
     text->n_bytes += n > 0 ? (size_t)n : 0;
   }
