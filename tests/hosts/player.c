@@ -169,9 +169,15 @@ static bool play(Player* self, bool is_freewheeling) {
 static int write_sound(const Player* self, const char* path) {
   char error[512] = "";
   SoundFile* const file = soundfile_new(path, (int)self->rate_hz, 0, error, sizeof(error));
-  if (!file || !soundfile_write(file, self->frames, (uint32_t)self->n_frames) ||
-      !soundfile_finish(file)) {
+  if (!file) {
     return die(error);
+  }
+  if (!soundfile_write(file, self->frames, (uint32_t)self->n_frames)) {
+    return die(soundfile_error(file));
+  }
+  const int reason = soundfile_finish(file);
+  if (reason) {
+    return die(strerror(reason));
   }
   printf("%u xruns\n", atomic_load(&self->n_xruns));
   return EXIT_SUCCESS;
