@@ -222,7 +222,7 @@ static void lend(Harp* harp) {
   double sum = 0.0;
   for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
     const Voice* const voice = &harp->awake[i]->voice;
-    sum += energy_of(voice) * voice->given;
+    sum += energy_of(voice) * voice->ledger.given;
   }
   for (uint32_t i = 0; i < harp->bridge.n_tied; ++i) {
     Voice* const voice = &harp->awake[i]->voice;

@@ -15,9 +15,6 @@ static const double STILLNESS = 1e-20;
  * back; fewer masses are better then. */
 static const double MOST_GIVEN_WAY = -0.126;
 
-/* The least that is left of its energy when it is held back. */
-static const double LEAST_KEPT = 1e-6;
-
 /* How often a string is looked after: whether it has died away, and what numbers suit it [frames];
  * and by how much the first time differs from phase to phase, after it is strung and after a glide,
  * so that those touched together are not all looked after together. */
@@ -26,39 +23,9 @@ enum { CHECK_FRAMES = 1024, N_PHASES = 16, STRING_SPREAD = 64, GLIDE_SPREAD = 8 
 /* When a choked string is let go, should one of its upper modes be slow to give in [s]. */
 static const double CHOKED_S = 0.1;
 
-/* How much more energy it may have than was given to it, for what is no bend changes that of its
- * partials: 1.5 dB. */
-static const double MOST_MORE = 1.4;
-
-/* How much more it may have before it is taken for fed. */
-static const double MORE = 1.15;
-
-/* What a unit of energy adds to the square of the amplitude that the fundamental alone would have.
- */
-static double per_energy(const Chain* chain) {
-  const double a = tuning_mode(chain->now, chain->n_masses, 1).a;
-  return 4.0 / ((chain->n_masses + 1.0) * (a - 0.25 * a * a));
-}
-
 /* Work that was done on it. */
 static void credit(Voice* voice, double work) {
-  voice->work += work;
-  voice->given += work * per_energy(&voice->chain);
-}
-
-/*
-  What was given dies with what rings.  What rings in time with the gestures that feed it does not
-  die; then as the slowest mode does.
-*/
-static void age(Voice* voice, double square) {
-  const Chain* const chain = &voice->chain;
-  const double radius = fmax(pole_radius(tuning_mode(chain->now, chain->n_masses, 1)),
-                             pole_radius(tuning_mode(chain->goal, chain->n_masses, 1)));
-  const double left = pow(radius, 2.0 * voice->n_unseen);
-  const double given = fmax(0.0, voice->given);
-  voice->given = square > MORE * given ? left * given : fmin(given, square);
-  voice->lent *= left;
-  voice->n_unseen = 0;
+  ledger_credit(&voice->ledger, &voice->chain, work);
 }
 
 /*
@@ -67,11 +34,9 @@ static void age(Voice* voice, double square) {
   what is near half the rate might, in time with it, and do so for minutes.
 */
 static void hold_back(Voice* voice, uint32_t n_glide) {
-  const double square = chain_energy(&voice->chain) * per_energy(&voice->chain);
-  age(voice, square);
-  const double most = MOST_MORE * fmax(voice->given, voice->lent);
-  if (square > most) {
-    chain_drain(&voice->chain, fmax(most / square, LEAST_KEPT), n_glide);
+  const double kept = ledger_settle(&voice->ledger, &voice->chain);
+  if (kept < 1.0) {
+    chain_drain(&voice->chain, kept, n_glide);
   }
 }
 
@@ -324,10 +289,7 @@ bool voice_string(Voice* voice, const VoiceAim* aim, uint32_t limit, uint32_t n_
   chain_set(&voice->chain, coefs);
   note_design(voice, target.tone.f0_hz, coefs);
   voice->n_strung = n_masses;
-  voice->work = 0.0;
-  voice->given = 0.0;
-  voice->lent = tie_is_wanted(hold_of(voice, aim)) ? HUGE_VAL : 0.0;
-  voice->n_unseen = 0;
+  voice->ledger = (Ledger){.lent = tie_is_wanted(hold_of(voice, aim)) ? HUGE_VAL : 0.0};
   voice->is_kept = false;
   voice->loudest = 0.0;
   voice->n_choked = 0;
@@ -515,7 +477,7 @@ bool voice_pass(Voice* voice, uint32_t n_frames) {
   }
   voice->n_until_piece -= voice->is_moving ? n_frames : 0;
   if (voice->is_awake) {
-    voice->n_unseen += n_frames;
+    voice->ledger.n_unseen += n_frames;
     voice->n_until_check -= n_frames;
     voice->n_choked += voice->is_choked ? n_frames : 0;
     if (voice->n_until_check == 0) {
@@ -570,11 +532,11 @@ double voice_energy(const Voice* voice) {
 }
 
 double voice_work(const Voice* voice) {
-  return voice->work;
+  return voice->ledger.work;
 }
 
 void voice_lend(Voice* voice, double square) {
-  voice->lent = isfinite(voice->lent) ? fmax(voice->lent, square) : square;
+  ledger_lend(&voice->ledger, square);
 }
 
 void voice_share(Voice* voice, bool is_shared) {

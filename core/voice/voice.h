@@ -30,6 +30,7 @@
 #include "core/string/chain.h"
 #include "core/string/tuning.h"
 #include "core/voice/intonation.h"
+#include "core/voice/ledger.h"
 #include "core/voice/motion.h"
 #include "core/voice/pickups.h"
 #include "core/voice/tie.h"
@@ -106,14 +107,10 @@ typedef struct {
   const Bridge* bridge; /**< What it can be tied to; NULL: nothing */
   Tie tie;
 
-  /* How long it lives */
-  double work;       /**< What all that played it has given it, see voice_work() */
-  double given;      /**< What is left of that, as the square of an amplitude, see
-                        voice_square() */
-  double lent;       /**< The same, that other strings may have given it; HUGE_VAL: not known */
-  uint32_t n_unseen; /**< Frames since `given` was last compared with what there is */
-  double loudest;    /**< Largest displacement seen since it was last plucked */
-  uint32_t n_choked; /**< Frames in which it has been choked */
+  /* How long it lives, and what it was given */
+  Ledger ledger;
+  double loudest;         /**< Largest displacement seen since it was last plucked */
+  uint32_t n_choked;      /**< Frames in which it has been choked */
   uint32_t n_until_check; /**< Frames until it is next looked after, see voice_pass() */
   bool is_awake;          /**< Whether it moves */
   bool is_kept;           /**< Something else moves it: it is not put to sleep */
@@ -293,7 +290,7 @@ double voice_work(const Voice* voice);
 
 /* For what ties voices together */
 
-/** Others may have given it so much, see Voice.lent. */
+/** Others may have given it so much, see Ledger.lent. */
 void voice_lend(Voice* voice, double square);
 
 /** Let its tie go on by one frame. */
