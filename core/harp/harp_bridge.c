@@ -74,18 +74,9 @@ static void prepare(Harp* harp, uint32_t n_taps) {
     const Tie* const tie = &harp->awake[i]->voice.tie;
     add_work(bridge, i, &harp->parts[i], harp->buses[i], n_taps);
     bridge->ends[i] = end_of(harp->parts[i].chain, tie);
-    bridge->is_gliding =
-        bridge->is_gliding || tie_stretch(tie) > 0 || harp->parts[i].chain->n_gliding > 0;
+    bridge->is_gliding = bridge->is_gliding || tie_stretch(tie) > 0;
     bridge->spring += tie->spring.value;
   }
-}
-
-/*
-  A string whose clock is bent (core/string/chain.h) is pulled as its springs pull in that step, or
-  it would not rest where the bridge is thought to hold it, and the two would feed each other.
-*/
-static double pull_of(const Chain* chain, double before, double now) {
-  return chain->n_gliding > 0 ? 0.5 * chain->kept * (chain_ratio(chain) * before + now) : now;
 }
 
 static void glide(Harp* harp) {
@@ -93,10 +84,8 @@ static void glide(Harp* harp) {
   bridge->spring = 0.0;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
     const Tie* const tie = &harp->awake[i]->voice.tie;
-    const double before = tie->pull.value;
     voice_advance_tie(&harp->awake[i]->voice);
     read_tie(&bridge->ends[i], tie);
-    bridge->ends[i].pull = pull_of(harp->parts[i].chain, before, tie->pull.value);
     bridge->spring += tie->spring.value;
   }
 }

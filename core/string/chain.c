@@ -118,10 +118,6 @@ void chain_drain(Chain* chain, double share, uint32_t n_frames) {
   chain->kept = pow(share, 0.5 / chain->n_gliding);
 }
 
-double chain_ratio(const Chain* chain) {
-  return chain_ratio_of(chain->now, chain_advance(chain->now, chain->change), chain->lambda1);
-}
-
 double chain_pace(const Chain* chain) {
   return chain_pace_of(chain->now, chain->lambda1);
 }

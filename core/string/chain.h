@@ -103,9 +103,6 @@ void chain_glide(Chain* chain, StringCoefs coefs, uint32_t n_frames);
  * was. */
 void chain_drain(Chain* chain, double share, uint32_t n_frames);
 
-/** How much faster its clock goes in the next step, which is gliding, than in the last. */
-double chain_ratio(const Chain* chain);
-
 /** How fast its clock goes, squared, see chain_pace_of(). */
 double chain_pace(const Chain* chain);
 

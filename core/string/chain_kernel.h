@@ -9,7 +9,6 @@
 
 #include "core/string/tuning.h"
 
-#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -87,24 +86,6 @@ static inline double chain_pace_of(StringCoefs c, double lambda1) {
   const double a = ((c.k3 * lambda1 + c.k2) * lambda1 + c.k1) * lambda1;
   const double half = 0.5 * (a + c.z0 + c.z1 * lambda1);
   return a - half * half;
-}
-
-/** How much faster the clock goes after than before; 1 where there is none, for it does not swing.
- */
-static inline double chain_ratio_of(StringCoefs before, StringCoefs after, double lambda1) {
-  const double from = chain_pace_of(before, lambda1);
-  const double to = chain_pace_of(after, lambda1);
-  return from > 0.0 && to > 0.0 ? sqrt(to / from) : 1.0;
-}
-
-static inline StringCoefs chain_advance(StringCoefs now, StringCoefs change) {
-  return (StringCoefs){
-      .k1 = now.k1 + change.k1,
-      .k2 = now.k2 + change.k2,
-      .k3 = now.k3 + change.k3,
-      .z0 = now.z0 + change.z0,
-      .z1 = now.z1 + change.z1,
-  };
 }
 
 /** Sums over a string's masses, in the units of its numbers. */

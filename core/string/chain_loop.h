@@ -21,6 +21,8 @@
 */
 #include "core/string/chain_step.h"
 
+#include <math.h>
+
 INLINE Coefs narrow(StringCoefs wide) {
   return (Coefs){
       .k1 = (Real)wide.k1,
@@ -53,14 +55,32 @@ INLINE Coefs bent(StringCoefs from, StringCoefs to, double ratio, double kept) {
   return c;
 }
 
+/* How much faster the clock goes after than before; 1 where there is none, for it does not swing.
+ */
+INLINE double ratio_of(StringCoefs before, StringCoefs after, double lambda1) {
+  const double from = chain_pace_of(before, lambda1);
+  const double to = chain_pace_of(after, lambda1);
+  return from > 0.0 && to > 0.0 ? sqrt(to / from) : 1.0;
+}
+
+INLINE StringCoefs advance(StringCoefs now, StringCoefs change) {
+  return (StringCoefs){
+      .k1 = now.k1 + change.k1,
+      .k2 = now.k2 + change.k2,
+      .k3 = now.k3 + change.k3,
+      .z0 = now.z0 + change.z0,
+      .z1 = now.z1 + change.z1,
+  };
+}
+
 INLINE StringCoefs scaled(StringCoefs c, double factor) {
   return (StringCoefs){factor * c.k1, factor * c.k2, factor * c.z0, factor * c.z1, factor * c.k3};
 }
 
 INLINE void go_on(Strand* strand, const ChainWork* work) {
-  const StringCoefs to = chain_advance(strand->wide, strand->change);
+  const StringCoefs to = advance(strand->wide, strand->change);
   strand->change = scaled(strand->change, work->haste);
-  const double ratio = chain_ratio_of(strand->wide, to, work->lambda1);
+  const double ratio = ratio_of(strand->wide, to, work->lambda1);
   strand->now = bent(strand->wide, to, ratio, work->kept);
   strand->wide = to;
 }

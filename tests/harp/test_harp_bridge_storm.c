@@ -133,6 +133,30 @@ static void bends_in_time_do_not_feed_the_bridge(void** state) {
   assert_true(most < 40.0 * HARP_NOTE_PEAK);
 }
 
+/* At high rates the bridge's own spring is next to nothing beside the strings', so that strings and
+ * their ties must go the same way. */
+static void bends_at_high_rates_do_not_feed_the_bridge(void** state) {
+  enum { N_GESTURE = 3072 };
+  (void)state;
+  HarpPatch patch = harps_patch(0);
+  patch.resonance = 1.0;
+  patch.string.damping_per_s = 0.02;
+  patch.string.max_masses = 300;
+  Harp* const harp = harps_new(768e3, &patch);
+  double most = 0.0;
+  harp_pedal(harp, 0, 1.0);
+  harp_note_on(harp, 0, 93, 127);
+  harp_run(harp, CALM, left[0], right[0]);
+  for (int i = 0; i < 60; ++i) {
+    harp_bend(harp, 0, i % 2 ? -24.0 : 24.0);
+    harp_run(harp, N_GESTURE, left[0], right[0]);
+    most = fmax(most, measure_peak(left[0], N_GESTURE));
+  }
+  harp_free(harp);
+  print_message("  peak %.2f notes\n", most / HARP_NOTE_PEAK);
+  assert_true(most < 4.0 * HARP_NOTE_PEAK);
+}
+
 /* The same storm, in blocks of its own. */
 static void play(uint64_t seed, uint32_t block, float* l, float* r) {
   Random random = {seed};
@@ -202,6 +226,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(storms_do_not_explode),
       cmocka_unit_test(bends_in_time_do_not_feed_the_bridge),
+      cmocka_unit_test(bends_at_high_rates_do_not_feed_the_bridge),
       cmocka_unit_test(blocks_do_not_change_the_sound),
       cmocka_unit_test(moving_resonance_makes_no_step),
   };

@@ -4,6 +4,7 @@
 
 #include "tests/support/host_inside.h"
 #include "tests/support/scala.h"
+#include "tests/support/temporary.h"
 
 #include <lv2/atom/forge.h>
 #include <lv2/atom/util.h>
@@ -43,8 +44,8 @@ ScalePath scale_path(const char* file) {
 }
 
 ScalePath scale_new_directory(void) {
-  ScalePath path = {"/tmp/hooke_scales_XXXXXX"};
-  assert_non_null(mkdtemp(path.text));
+  ScalePath path;
+  temporary_folder(path.text);
   return path;
 }
 

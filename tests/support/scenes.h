@@ -2,13 +2,14 @@
 #ifndef HOOKE_TESTS_SUPPORT_SCENES_H
 #define HOOKE_TESTS_SUPPORT_SCENES_H
 
+#include "tests/support/temporary.h"
 #include "tools/formats/scene.h"
 
 #include <stddef.h>
 
 /** Where a scene was, and what was said about it. */
 typedef struct {
-  char path[64];
+  char path[TEMPORARY_SIZE];
   char error[SCENE_ERROR_SIZE];
 } ScenesRead;
 

@@ -2,13 +2,14 @@
 #ifndef HOOKE_TESTS_SUPPORT_SCORES_H
 #define HOOKE_TESTS_SUPPORT_SCORES_H
 
+#include "tests/support/temporary.h"
 #include "tools/formats/score.h"
 
 #include <stddef.h>
 
 /** Where a score was, and what was said about it. */
 typedef struct {
-  char path[64];
+  char path[TEMPORARY_SIZE];
   char error[SCORE_ERROR_SIZE];
 } ScoresRead;
 

@@ -16,7 +16,7 @@
 
 static void assert_refused(const char* text, size_t size, unsigned line, const char* what) {
   ScenesRead read;
-  char start[128];
+  char start[TEMPORARY_SIZE + 64];
   assert_null(scenes_read_bytes(text, size, SCENE_FOR_SOUND, &read));
   (void)snprintf(start, sizeof(start), "%s:%u: found ", read.path, line);
   if (strncmp(read.error, start, strlen(start)) != 0 || !strstr(read.error, what) ||

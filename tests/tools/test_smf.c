@@ -4,6 +4,7 @@
 
 #include "tests/support/random.h"
 #include "tests/support/song.h"
+#include "tests/support/temporary.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -21,17 +22,13 @@
 
 /* Where a file was, and what was said about it. */
 typedef struct {
-  char path[64];
+  char path[TEMPORARY_SIZE];
   char error[256];
 } Read;
 
 static Smf* read_bytes(const uint8_t* data, size_t size, Read* read) {
-  strcpy(read->path, "/tmp/hooke_midi_XXXXXX");
+  temporary_file(data, size, read->path);
   read->error[0] = '\0';
-  const int fd = mkstemp(read->path);
-  assert_true(fd >= 0);
-  assert_int_equal(write(fd, data, size), size);
-  assert_int_equal(close(fd), 0);
   Smf* const smf = smf_new(read->path, read->error, sizeof(read->error));
   assert_int_equal(unlink(read->path), 0);
   return smf;
