@@ -1,5 +1,6 @@
 #include "core/analysis/modes_order.h"
 
+#include <assert.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -236,7 +237,9 @@ Status order_init(Order* order, const Frame* frame) {
   bool is_done = order->place && order->start && graph_init(&graph, frame, order->place) &&
                  eliminate_all(&graph);
   if (is_done) {
-    order->row = malloc(count_entries(&graph) * sizeof(uint32_t));
+    const size_t n_entries = count_entries(&graph);
+    assert(n_entries >= n);
+    order->row = malloc(n_entries * sizeof(uint32_t));
     is_done = order->row;
   }
   if (is_done) {

@@ -37,6 +37,7 @@ static void read_tie(HarpBridgeEnd* end, const Tie* tie) {
   end->give = tie->weight * tie->pull.value;
   end->pull = tie->pull.value;
   end->spring = tie->spring.value;
+  end->rest = tie->rest.value;
 }
 
 static HarpBridgeEnd end_of(const Chain* chain, const Tie* tie) {
@@ -61,25 +62,57 @@ add_work(HarpBridge* bridge, uint32_t i, const ChainPart* part, uint32_t bus, ui
   if (last && last->loop == loop && last->bus == bus && last->n < CHAIN_MAX_BATCH) {
     ++last->n;
   } else {
-    bridge->batches[bridge->n_batches++] = (HarpBridgeBatch){loop, bus, i, 1};
+    bridge->batches[bridge->n_batches++] =
+        (HarpBridgeBatch){.loop = loop, .bus = bus, .first = i, .n = 1};
   }
 }
 
-static void prepare(Harp* harp, uint32_t n_taps) {
+static double weight_of_last(const ChainPart* part, uint32_t t) {
+  const ChainTap* const tap = &part->taps[t];
+  const uint32_t last = part->chain->n_masses - 1;
+  return (tap->mass[0] == last ? (double)tap->weight[0] : 0.0) +
+         (tap->mass[1] == last ? (double)tap->weight[1] : 0.0);
+}
+
+/*
+  What loops read is what strings do by themselves, before the bridge pulls and moves the last mass;
+  and a string pulls at the bridge by how far that is from where it would rest with it.
+*/
+static void tell_taps(Harp* harp, const Reading* reading) {
+  HarpBridge* const bridge = &harp->bridge;
+  for (uint32_t b = 0; b < bridge->n_batches; ++b) {
+    HarpBridgeBatch* const batch = &bridge->batches[b];
+    for (uint32_t t = 0; t < reading->n_taps; ++t) {
+      const bool is_at_bridge = reading->at[t].type == PICKUP_FORCE && reading->at[t].is_far;
+      double pulled = 0.0;
+      double rest = 0.0;
+      for (uint32_t i = batch->first; i < batch->first + batch->n; ++i) {
+        const double weight = weight_of_last(&harp->parts[i], t);
+        pulled += weight * bridge->ends[i].pull;
+        rest += is_at_bridge ? weight * bridge->ends[i].rest : 0.0;
+      }
+      batch->pulled[t] = pulled;
+      batch->rest[t] = rest;
+    }
+  }
+}
+
+static void prepare(Harp* harp, const Reading* reading) {
   HarpBridge* const bridge = &harp->bridge;
   bridge->n_batches = 0;
   bridge->is_gliding = false;
   bridge->spring = 0.0;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
     const Tie* const tie = &harp->awake[i]->voice.tie;
-    add_work(bridge, i, &harp->parts[i], harp->buses[i], n_taps);
+    add_work(bridge, i, &harp->parts[i], harp->buses[i], reading->n_taps);
     bridge->ends[i] = end_of(harp->parts[i].chain, tie);
     bridge->is_gliding = bridge->is_gliding || tie_stretch(tie) > 0;
     bridge->spring += tie->spring.value;
   }
+  tell_taps(harp, reading);
 }
 
-static void glide(Harp* harp) {
+static void glide(Harp* harp, const Reading* reading) {
   HarpBridge* const bridge = &harp->bridge;
   bridge->spring = 0.0;
   for (uint32_t i = 0; i < bridge->n_tied; ++i) {
@@ -88,6 +121,7 @@ static void glide(Harp* harp) {
     read_tie(&bridge->ends[i], tie);
     bridge->spring += tie->spring.value;
   }
+  tell_taps(harp, reading);
 }
 
 /* How the strings pull at the bridge where they are. */
@@ -117,6 +151,18 @@ static void pull(HarpBridge* bridge) {
   }
 }
 
+/* What taps read of what the bridge does, which was where it `was` before this frame. */
+static void hear(Harp* harp, double was, uint32_t n_taps, uint32_t n) {
+  const HarpBridge* const bridge = &harp->bridge;
+  for (uint32_t b = 0; b < bridge->n_batches; ++b) {
+    const HarpBridgeBatch* const batch = &bridge->batches[b];
+    for (uint32_t t = 0; t < n_taps; ++t) {
+      const double read = batch->pulled[t] * was - batch->rest[t] * bridge->bridge.y;
+      harp->mix[batch->bus][t][n] += (float)read;
+    }
+  }
+}
+
 /* Hammers and bows, and who listens to them, which may set the string gliding; true if something is
  * over, or begins. */
 static bool act(Harp* harp) {
@@ -131,16 +177,17 @@ static bool act(Harp* harp) {
   return is_new;
 }
 
-static void run_frame(Harp* harp, uint32_t n, uint32_t n_taps) {
+static void run_frame(Harp* harp, const Reading* reading, uint32_t n) {
   HarpBridge* const bridge = &harp->bridge;
   if (bridge->is_gliding) {
-    glide(harp);
+    glide(harp, reading);
   }
   const double force = force_of(bridge);
+  const double was = bridge->bridge.y;
   for (uint32_t b = 0; b < bridge->n_batches; ++b) {
     const HarpBridgeBatch* const batch = &bridge->batches[b];
     float* out[CHAIN_MAX_TAPS];
-    for (uint32_t t = 0; t < n_taps; ++t) {
+    for (uint32_t t = 0; t < reading->n_taps; ++t) {
       out[t] = &harp->mix[batch->bus][t][n];
     }
     batch->loop(&bridge->works[batch->first], batch->n, 1, out);
@@ -148,6 +195,7 @@ static void run_frame(Harp* harp, uint32_t n, uint32_t n_taps) {
   pull(bridge);
   bridge_step(&bridge->bridge, force, bridge->spring);
   bridge->level = fmax(bridge->level, fabs(bridge->bridge.y));
+  hear(harp, was, reading->n_taps, n);
 }
 
 static void pass_untouched(Harp* harp, uint32_t n_frames) {
@@ -181,7 +229,7 @@ uint32_t harp_bridge_stretch(const Harp* harp, uint32_t n_frames) {
   return n_frames;
 }
 
-uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps) {
+uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, const Reading* reading) {
   HarpBridge* const bridge = &harp->bridge;
   if (bridge->n_tied == 0) {
     return n_frames;
@@ -191,10 +239,10 @@ uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps) {
     bridge->is_touched[i] = voice_is_touched(&harp->awake[i]->voice);
     is_touched = is_touched || bridge->is_touched[i];
   }
-  prepare(harp, n_taps);
+  prepare(harp, reading);
   uint32_t n = 0;
   for (bool is_over = false; n < n_frames && !is_over; ++n) {
-    run_frame(harp, n, n_taps);
+    run_frame(harp, reading, n);
     is_over = is_touched && act(harp);
   }
   pass_untouched(harp, n);

@@ -28,7 +28,7 @@ uint32_t harp_bridge_stretch(const Harp* harp, uint32_t n_frames);
 /** Run the strings that are tied at most `n_frames`, add them to their buses, and tell them; how
  * many they were, which is less where a hammer or a bow has left a string, or is followed by ear.
  */
-uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, uint32_t n_taps);
+uint32_t harp_bridge_run(Harp* harp, uint32_t n_frames, const Reading* reading);
 
 /** After those frames: on the grid, see who is to wake, and who may sleep. */
 void harp_bridge_pass(Harp* harp, uint32_t n_frames);

@@ -329,7 +329,7 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
   take_reading(harp, &reading, n_parts);
   const uint32_t heard = heard_buses(harp, n_parts, reading.n_taps);
   clear_buses(harp, heard, n_most, reading.n_taps);
-  const uint32_t n = harp_bridge_run(harp, n_most, reading.n_taps);
+  const uint32_t n = harp_bridge_run(harp, n_most, &reading);
   run_strings(harp, n_parts, n, reading.n_taps);
   if (!is_sound(harp, heard, n, reading.n_taps)) {
     mend(harp, n_parts, heard, n, reading.n_taps);

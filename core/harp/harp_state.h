@@ -43,6 +43,8 @@ typedef struct {
   uint32_t bus; /**< Where they are heard */
   uint32_t first;
   uint32_t n;
+  double pulled[CHAIN_MAX_TAPS]; /**< What their taps read of the last pull, for y = 1 */
+  double rest[CHAIN_MAX_TAPS];   /**< And do so though nothing pulls */
 } HarpBridgeBatch;
 
 /** Where the last mass of a string is, and what the tie makes of it. */
@@ -53,6 +55,7 @@ typedef struct {
   double give;   /**< r p */
   double pull;   /**< p */
   double spring; /**< s */
+  double rest;   /**< p C */
 } HarpBridgeEnd;
 
 /** Zero moves nothing. */

@@ -16,6 +16,7 @@ static const double MOST_BRIDGE_ANGLE = 2.0 * PI / 16.0;
 
 static const double MOST_MASS = 0.01;
 static const double MASS_HALVED_HZ = 110.0;
+static const double MASS_HALVED_AGAIN_HZ = 1500.0;
 
 /* The share of a string's dampers to the ground that stays, whatever the bridge takes. */
 static const double LEAST_GROUND = 0.5;
@@ -111,6 +112,7 @@ static BridgeTie tie_of(const Sums* sums, StringCoefs coefs, uint32_t n_masses, 
       .weight = weight,
       .pull = sqrt(kept) * pull,
       .spring = kept * strength * sums->slow,
+      .rest = sqrt(kept) * pull * sums->slow,
       .load = kept * load,
   };
 }
@@ -160,7 +162,8 @@ Bridge bridge_at(double rate_hz) {
 }
 
 double bridge_mass(double f0_hz) {
-  return MOST_MASS / (1.0 + f0_hz / MASS_HALVED_HZ);
+  const double high = f0_hz / MASS_HALVED_AGAIN_HZ;
+  return MOST_MASS / ((1.0 + f0_hz / MASS_HALVED_HZ) * (1.0 + high * high));
 }
 
 BridgeTie bridge_tie(StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {

@@ -68,6 +68,7 @@ typedef struct {
   double weight; /**< r: a mass of the string's over the bridge's */
   double pull;   /**< p: on the last mass, for y = 1 */
   double spring; /**< s: what it adds to the bridge's spring */
+  double rest;   /**< p C: where the last mass is at rest, for y = 1 */
   double load;   /**< What it takes of the stability limit */
 } BridgeTie;
 
@@ -84,10 +85,10 @@ Bridge bridge_at(double rate_hz);
 /**
    q of a string, by the pitch that it is made for: heavy strings are low.
 
-       q = 0.01/(1 + f0/110 Hz),
+       q = 0.01/((1 + f0/110 Hz) (1 + (f0/1500 Hz)²)),
 
    which makes high and low strings answer about as fast, some 0.1 of the motion in a second at
-   ρ = 1/2.
+   ρ = 1/2; but the highest less, as a steady pull of theirs, a bow's, moves the bridge by q f0.
 */
 double bridge_mass(double f0_hz);
 

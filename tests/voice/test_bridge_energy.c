@@ -175,8 +175,10 @@ static void gliding_strings_stay_stable(void** state) {
             last, n_masses, (BridgeHold){a.weight * (n_masses + 1.0), 0.125 * (j + 1.0)});
         strung.n_masses[j] = n_masses;
         strung.coefs[j] = mix_coefs(from.coefs[j], last, share);
-        strung.ties[j] = (BridgeTie){a.weight, mix(a.pull, b.pull, share),
-                                     mix(a.spring, b.spring, share), mix(a.load, b.load, share)};
+        strung.ties[j] = (BridgeTie){.weight = a.weight,
+                                     .pull = mix(a.pull, b.pull, share),
+                                     .spring = mix(a.spring, b.spring, share),
+                                     .load = mix(a.load, b.load, share)};
       }
       assert_true(is_positive());
     }
