@@ -39,10 +39,12 @@ static double damper_of(const HarpString* string, double open_s) {
   return string->lift < 1.0 ? shut_s * pow(open_s / shut_s, string->lift) : 0.0;
 }
 
-static BridgeHold hold_of(const HarpString* string) {
+/* A string that is tuned higher than its key's usual pitch pulls no more than one made for it. */
+static BridgeHold hold_of(const HarpString* string, double f0_hz) {
   const double resonance = string->patch->resonance;
-  const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
-  return resonance > 0.0 ? (BridgeHold){bridge_mass(f0_hz), resonance * resonance * string->lift}
+  const double mass = bridge_mass(440.0 * exp2(((double)string->key - 69.0) / 12.0));
+  const double lever = resonance * resonance * string->lift;
+  return resonance > 0.0 ? (BridgeHold){mass, lever * sqrt(fmin(1.0, bridge_mass(f0_hz) / mass))}
                          : (BridgeHold){0};
 }
 
@@ -54,7 +56,7 @@ static VoiceAim aim_at(const HarpString* string, double f0_hz) {
   TuningTarget open =
       string_patch_target(&string->patch->string, string->voice.rate_hz, semitones, f0_hz);
   open.loss = loss_of(string);
-  return (VoiceAim){open, damper_of(string, open.tone.tau_s), hold_of(string)};
+  return (VoiceAim){open, damper_of(string, open.tone.tau_s), hold_of(string, f0_hz)};
 }
 
 static double pressure_of(const HarpString* string) {
