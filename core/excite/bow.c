@@ -6,32 +6,32 @@
 #include <float.h>
 #include <math.h>
 
-/* Friction at rest and where it slips fast, and the speed, of that with which Helmholtz's string
- * slips back, at which it is half way. */
+/* Friction at rest and where it slips fast, and the speed, of the hair's, at which it is half way.
+ */
 static const double STATIC = 0.8;
 static const double DYNAMIC = 0.3;
-static const double HALF_WAY = 1.0;
+static const double HALF_WAY = 0.2;
 
-/* The string's twist under the hair: its damper, of the string's impedance, and the time in which
- * its spring gives way to it, of a period. */
-static const double ROLL = 1.0;
-static const double ROLL_TIME = 0.06;
+/* The string's twist under the hair: its damper, of the string's impedance, and its spring, of that
+ * for each radian of the fundamental. */
+static const double ROLL = 2.0;
+static const double ROLL_SPRING = 1.8;
 
 /* A bow is so wide that it comes no nearer to a wall, nor so near that a slip would take fewer
  * frames than these; and further out the string is all too ready to slip twice a period. */
-static const double LEAST_PLACE = 0.03;
+static const double LEAST_PLACE = 0.05;
 static const double SLIP_FRAMES = 3.0;
-static const double MOST_PLACE = 0.3;
-
-/* A node of the fourth partial, on which nothing holds the string to its own period, and how far
- * the bow keeps from it. */
-static const double NODE = 0.25;
-static const double NODE_WIDTH = 0.015;
+static const double MOST_PLACE = 0.2;
 
 /* Force, of the most with which each round of the string still pulls the hair off, for no pressure
- * and for all. */
-static const double LIGHTEST = 0.65;
-static const double HEAVIEST = 1.6;
+ * and for all, at a place; nearer to the wall the string asks for less of it. */
+static const double LIGHTEST = 0.36;
+static const double HEAVIEST = 0.47;
+static const double USUAL_PLACE = 0.13;
+static const double NEARER = 0.2;
+
+/* Time in which it is pressed, of that in which it comes to its speed. */
+static const double PRESSING = 0.3;
 
 /* The most that it can swell to. */
 static const double STRONGEST = 2.0;
@@ -53,33 +53,38 @@ static double friction_at(const Meeting* m, double speed) {
 
       v² + (v0 − w) v − w v0 + yield F (μs − μd) v0 = 0,
 
-  of which the larger root is the one that is there to stay.
+  of which the larger root is the one that is there to stay; 0 where it slips no more.
 */
 static double slip_of(const Meeting* m, double free) {
   const double w = free - m->yield * m->force * DYNAMIC;
   const double sum = m->v0 + w;
   const double discriminant = sum * sum - 4.0 * m->yield * m->force * (STATIC - DYNAMIC) * m->v0;
-  return fmax(0.0, 0.5 * (w - m->v0 + sqrt(fmax(0.0, discriminant))));
+  return discriminant > 0.0 ? fmax(0.0, 0.5 * (w - m->v0 + sqrt(discriminant))) : 0.0;
 }
 
-static BowState state_of(const Meeting* m) {
-  if (fabs(m->free) <= m->yield * m->force * STATIC) {
-    return BOW_STICKS;
+static double sign_of(BowState state) {
+  return state == BOW_STICKS ? 0.0 : state == BOW_SLIPS_BACK ? -1.0 : 1.0;
+}
+
+/* What slips goes on slipping for as long as it can; what sticks, up to friction at rest. */
+static double settle_slip(Bow* bow, const Meeting* m) {
+  const double speed = bow->state == BOW_STICKS ? 0.0 : slip_of(m, sign_of(bow->state) * m->free);
+  if (speed > 0.0) {
+    return speed;
   }
-  return m->free > 0.0 ? BOW_SLIPS_AHEAD : BOW_SLIPS_BACK;
+  bow->state = BOW_STICKS;
+  if (fabs(m->free) > m->yield * m->force * STATIC) {
+    bow->state = m->free > 0.0 ? BOW_SLIPS_AHEAD : BOW_SLIPS_BACK;
+    return slip_of(m, fabs(m->free));
+  }
+  return 0.0;
 }
 
 static void settle(Bow* bow, const Meeting* m) {
-  bow->state = state_of(m);
-  if (bow->state == BOW_STICKS) {
-    bow->slip = 0.0;
-    bow->friction = -m->free / m->yield;
-  } else {
-    const double sign = bow->state == BOW_SLIPS_BACK ? -1.0 : 1.0;
-    const double speed = slip_of(m, sign * m->free);
-    bow->slip = sign * speed;
-    bow->friction = -sign * friction_at(m, speed);
-  }
+  const double speed = settle_slip(bow, m);
+  const double sign = sign_of(bow->state);
+  bow->slip = sign * speed;
+  bow->friction = bow->state == BOW_STICKS ? -m->free / m->yield : -sign * friction_at(m, speed);
 }
 
 /* What is given to a string in its own time is the same at any pitch. */
@@ -87,7 +92,6 @@ static void follow(Bow* bow, const Chain* chain) {
   bow->haste = sqrt(fmax(0.0, chain_pace(chain) / bow->pace));
   (void)line_next(&bow->strength);
   (void)line_next(&bow->drawn);
-  (void)line_next(&bow->paced);
   (void)line_next(&bow->pressed);
   bow->hair = bow->haste * bow->strength.value * bow->drawn.value;
   bow->is_active = !bow->is_lifted || bow->pressed.n_left > 0;
@@ -106,7 +110,6 @@ static void take_over(Bow* bow, double spring) {
   const double now = bow->haste * bow->strength.value;
   bow->rolled *= sqrt(bow->haste * bow->spring / spring);
   bow->drawn.value *= now;
-  bow->paced.value *= now;
   bow->pressed.value *= now;
   bow->is_lifted = false;
 }
@@ -114,10 +117,7 @@ static void take_over(Bow* bow, double spring) {
 /* Where it can be bowed: fraction of the length from the nearer wall, then from the one. */
 double bow_place(double wanted, double angle1) {
   const double least = fmax(LEAST_PLACE, SLIP_FRAMES * angle1 / (2.0 * PI));
-  double beta = fmin(fmax(fmin(wanted, 1.0 - wanted), least), MOST_PLACE);
-  if (fabs(beta - NODE) < NODE_WIDTH) {
-    beta = beta < NODE ? NODE - NODE_WIDTH : NODE + NODE_WIDTH;
-  }
+  const double beta = fmin(fmax(fmin(wanted, 1.0 - wanted), least), MOST_PLACE);
   return wanted > 0.5 ? 1.0 - beta : beta;
 }
 
@@ -133,22 +133,20 @@ void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, doubl
   const double swing = sin(angle1);
   const double speed = 8.0 * beta * (1.0 - beta) * stroke.amplitude * swing / (2.0 * PI);
   /* Schelleng's most: the corner brings 2 √k1 b/β, and friction falls by so much at its slip. */
-  const double heavy = 2.0 * (1.0 + HALF_WAY) / (beta * (STATIC - DYNAMIC));
+  const double heavy = 2.0 / (beta * (STATIC - DYNAMIC)) * pow(beta / USUAL_PLACE, NEARER);
   const double force = heavy * LIGHTEST * pow(HEAVIEST / LIGHTEST, stroke.pressure) * speed;
-  const double spring = ROLL * angle1 / (2.0 * PI * ROLL_TIME);
+  const double spring = ROLL_SPRING * angle1;
   const uint32_t n_attack = frames_of(stroke.attack_s, rate_hz);
   if (bow->is_active) {
     take_over(bow, spring);
   } else {
     *bow = (Bow){.is_active = true};
     line_set(&bow->place, place);
-    line_set(&bow->paced, speed);
   }
   line_set(&bow->strength, 1.0);
   line_to(&bow->place, place, n_attack);
   line_to(&bow->drawn, speed, n_attack);
-  line_to(&bow->paced, speed, n_attack);
-  line_to(&bow->pressed, force, frames_of(0.5 * stroke.attack_s, rate_hz));
+  line_to(&bow->pressed, force, frames_of(PRESSING * stroke.attack_s, rate_hz));
   bow->pace = chain_pace(chain);
   bow->haste = 1.0;
   bow->n_lift = frames_of(stroke.release_s, rate_hz);
@@ -178,19 +176,17 @@ bool bow_act(Bow* bow, Chain* chain) {
   }
   const Contact contact = contact_at(chain, bow->place.value);
   const double impedance = sqrt(chain->now.k1);
-  const double beta = fmin(bow->place.value, 1.0 - bow->place.value);
   follow(bow, chain);
   const double after = contact_velocity(chain, &contact);
   const double spring = impedance * bow->haste * bow->spring;
   const double roll = 1.0 / (impedance * ROLL + 0.5 * spring);
   const double yield = 0.5 * contact.square + roll;
   const double force = bow->haste * bow->strength.value * bow->pressed.value * impedance;
-  const double pace = bow->haste * bow->strength.value * bow->paced.value;
   const Meeting m = {
       .free = 0.5 * (after + bow->before) - bow->hair - roll * spring * bow->rolled,
       .yield = yield,
       .force = force,
-      .v0 = fmax(DBL_MIN, fmax(HALF_WAY * pace / beta, yield * force * (STATIC - DYNAMIC))),
+      .v0 = fmax(DBL_MIN, HALF_WAY * bow->hair),
   };
   settle(bow, &m);
   bow->rolled += roll * (bow->friction - spring * bow->rolled);

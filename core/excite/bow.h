@@ -56,7 +56,6 @@ typedef struct {
   Line place;
   Line strength;   /**< Of what is drawn, paced and pressed, see bow_swell() */
   Line drawn;      /**< b, per step, for a strength of 1 */
-  Line paced;      /**< Where b ends, by which v0 is measured */
   Line pressed;    /**< F, of √k1 */
   double spring;   /**< s, of √k1 */
   double pace;     /**< Of the string when the stroke began, see chain_pace() */

@@ -9,29 +9,14 @@
  * pole at both edges, and the narrowest is as wide as one of an odd number's. */
 static const double WIDER = 1.0005;
 
-/*
-  What bows are measured to do, at places from 0.05 to 0.5, keys 33 to 86, and losses from 0.001 to
-  0.3, within 1.5 dB in the mean.  B; ε² at first, what of it the mode loses in a radian of the
-  fundamental, and what the partial's own square adds.
-*/
-static const double BOW_PUSH = 2.69;
-static const double HOLD = 0.0043;
-static const double HOLD_LOSS = 2.0;
-static const double HOLD_PARTIAL = 1.43e-5;
-
-/* What near a wall the first partial has more in power, of each length. */
-static const double NEAR_WALL = 0.09;
-static const double FIRST_MORE = 7.0;
-
-/* The partial above which the corner is round, of 262 Hz bowed at 0.13. */
-static const double SHARPEST = 33.5;
-static const double SHARPEST_HZ = 262.0;
-static const double SHARPEST_PLACE = 0.13;
-
-/* Up to where the string slips once a period, and what it loses from there on by slipping more
- * often [dB of each length]. */
-static const double ONE_SLIP = 0.0635;
-static const double MORE_SLIPS_DB = 24.1;
+/* What bows are measured to do at places from 0.05 to 0.2: Helmholtz's motion is softer than it was
+ * asked for [dB], and the more so from a place on [dB of each length]; s² where a node begins to be
+ * one, and what a mode loses in a radian of the fundamental when its corner is round. */
+static const double BOW_LOST_DB = 1.2;
+static const double BOW_FULL = 0.1;
+static const double BOW_MORE_LOST_DB = 8.0;
+static const double NODE = 0.01;
+static const double ROUND = 0.1;
 
 /* The rehearsed partials that are taken as they are, and those, of so many, whose means tell how
  * the rest go on: the last are too few masses' own. */
@@ -122,26 +107,22 @@ Spectrum spectrum_of_strike(uint32_t n_masses, Strike strike, double angle1) {
   return s;
 }
 
-Spectrum spectrum_of_bow(double place, double angle1, double hz) {
+Spectrum spectrum_of_bow(double place, double angle1) {
   const double at = bow_place(place, angle1);
   const double beta = fmin(at, 1.0 - at);
-  const double lost_db = MORE_SLIPS_DB * fmax(0.0, beta - ONE_SLIP);
+  const double lost_db = BOW_LOST_DB + BOW_MORE_LOST_DB * fmax(0.0, beta - BOW_FULL);
   return (Spectrum){
       .exciter = EXCITER_BOW,
       .angles = {2.0 * PI * at, 0.0},
-      .push = BOW_PUSH * beta * pow(10.0, -0.05 * lost_db),
+      .push = 8.0 / (PI * PI) * pow(10.0, -0.05 * lost_db),
       .angle1 = angle1,
-      .first = 1.0 + FIRST_MORE * fmax(0.0, NEAR_WALL - beta),
-      .corner = SHARPEST * SHARPEST * (hz / SHARPEST_HZ) * (SHARPEST_PLACE / beta),
   };
 }
 
 static double bowed_square(const Spectrum* s, double k, double loss, double sine2) {
-  const double speed = s->push / k;
-  const double hold = sine2 + HOLD + HOLD_LOSS * loss + HOLD_PARTIAL * k * k;
-  const double r = k * k / s->corner;
-  const double more = k == 1.0 ? s->first : 1.0;
-  return more * speed * speed * sine2 / (hold * hold * (1.0 + r * r * r));
+  const double amplitude = s->push / (k * k);
+  const double lost = loss / ROUND;
+  return amplitude * amplitude * sine2 / ((sine2 + NODE) * (1.0 + lost * lost));
 }
 
 double spectrum_square(const Spectrum* s, uint32_t k, Pole mode, const double cosines[2]) {

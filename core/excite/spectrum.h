@@ -8,12 +8,9 @@
    edges; of few masses, those under it are summed one by one;
    - a strike's is the spectrum of a hammer's rehearsal (core/excite/rehearsal.h), which falls on as
    it last did where that has no more masses;
-   - under a bow the string is carried along but for a moment of every period, so all harmonics of
-     the speed at the bow, B, are alike.  Mode k is moved by k X_k s with s = sin(kπp), and what
-     it loses must be made up for through the same s, so k X_k = B s/(s² + ε²); the corner that
-     goes round is the rounder the slower it goes and the wider the bow's side is.  Of a bow that is
-     drawn far from the walls only the mean is known: the string may slip twice in a period, or
-     thrice.
+   - under a bow it moves as Helmholtz's does, so X_k = 8/π² A/k², but where the bow is at a node of
+   the mode, and but for what the mode loses in a round, which makes the corner that goes round
+   rounder.
 
    Thread: any; real-time safe.
 */
@@ -35,12 +32,10 @@ enum { SPECTRUM_FEW = 48 };
 typedef struct {
   Exciter exciter;
   double angles[2]; /**< Mode k is told the cosines of k times these, see spectrum_square() */
-  double push;      /**< What a pluck at one point would give to X_k sin ω_k; or B */
+  double push;      /**< What a pluck at one point would give to X_k sin ω_k; or X_1 of a bow */
   double width;     /**< Half of the finger's, in radians of the fundamental's shape */
   double edges[2]; /**< Cosine of the finger's own phase at each edge, −1 where no wall cuts it */
   double angle1;   /**< The fundamental's digital angular frequency [rad per sample] */
-  double first;    /**< Of a bow: what the first partial's power is multiplied by */
-  double corner;   /**< Of a bow: the square of the partial above which the corner is round */
   uint32_t
       n_shares; /**< Partials that its rehearsal is believed of; or all, of few plucked masses */
   double shares[SPECTRUM_FEW]; /**< Their push squared: of the first's; or of `push` */
@@ -59,8 +54,8 @@ Spectrum spectrum_of_pluck(uint32_t n_masses, Pluck pluck, double angle1);
 /** Of a strike, whose amplitude matters: louder ones are brighter. */
 Spectrum spectrum_of_strike(uint32_t n_masses, Strike strike, double angle1);
 
-/** Of a bow, once it is drawn in full. @param hz  The fundamental's frequency [Hz], > 0 */
-Spectrum spectrum_of_bow(double place, double angle1, double hz);
+/** Of a bow, once it is drawn in full. */
+Spectrum spectrum_of_bow(double place, double angle1);
 
 /**
    X_k².

@@ -156,8 +156,7 @@ static Power sum(const Heard* heard, Turns* turns, uint32_t n_masses) {
 }
 
 static Spectrum spectrum_for(const HarpPatch* patch, const HarpBalance* string, Pluck pluck) {
-  const double hz = string->target.tone.f0_hz;
-  const double angle1 = 2.0 * PI * hz / string->target.rate_hz;
+  const double angle1 = 2.0 * PI * string->target.tone.f0_hz / string->target.rate_hz;
   switch (patch->exciter) {
   case EXCITER_STRIKE: {
     const Strike strike = {pluck.place, pluck.hardness, string->hammer_mass,
@@ -165,7 +164,7 @@ static Spectrum spectrum_for(const HarpPatch* patch, const HarpBalance* string, 
     return spectrum_of_strike(string->n_masses, strike, angle1);
   }
   case EXCITER_BOW:
-    return spectrum_of_bow(pluck.place, angle1, hz);
+    return spectrum_of_bow(pluck.place, angle1);
   case EXCITER_PLUCK:
     break;
   }

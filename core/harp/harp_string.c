@@ -6,9 +6,8 @@
 /* A hammer's mass, as a share of the string's. */
 static const double HAMMER_MASS = 0.25;
 
-/* As far from the nearer wall as hammers and bows go, of the length. */
+/* As far from the nearer wall as hammers go, of the length. */
 static const double FARTHEST_STRIKE = 0.47;
-static const double FARTHEST_BOW = 0.15;
 
 /* How long a bow takes to come to its speed, and to be lifted [s]. */
 static const double BOW_ATTACK_S = 0.04;
@@ -155,13 +154,10 @@ void harp_string_choke(HarpString* string, uint32_t n_glide) {
 }
 
 /* In the middle both walls throw a hammer's wave back at once, and what comes of it hangs on every
- * mass; and far from the walls a string under a bow is all too ready to slip twice a period. */
+ * mass. */
 static double place_for(Exciter exciter, double wanted) {
   const double from_wall = fmin(wanted, 1.0 - wanted);
-  const double most = exciter == EXCITER_STRIKE ? FARTHEST_STRIKE
-                      : exciter == EXCITER_BOW  ? FARTHEST_BOW
-                                                : 0.5;
-  const double at = fmin(from_wall, most);
+  const double at = exciter == EXCITER_STRIKE ? fmin(from_wall, FARTHEST_STRIKE) : from_wall;
   return wanted > 0.5 ? 1.0 - at : at;
 }
 

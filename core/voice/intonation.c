@@ -19,12 +19,17 @@ static const double FAR = 1.0 / 12.0;
 /* Errors that are let be [cents]. */
 static const double IN_TUNE = 0.05;
 
-/* The next sum ends where whole periods do; `late` frames of it are over. */
+/* The next sum ends where whole periods do, of which there is one or an even number; `late` frames
+ * of it are over. */
 static void begin_sum(Intonation* ear, double late) {
   const double period = ear->target.rate_hz / ear->target.tone.f0_hz;
   const double shortest = fmax(LEAST_FRAMES, LEAST_S * ear->target.rate_hz);
-  ear->due = ceil(shortest / period) * period - late;
+  const double pairs = ceil(0.5 * shortest / period);
+  const bool is_halved = period < shortest;
+  ear->due = (is_halved ? 2.0 * pairs : 1.0) * period - late;
+  ear->half_due = is_halved ? pairs * period - late : HUGE_VAL;
   ear->sum[0] = ear->sum[1] = 0.0;
+  ear->half[0] = ear->half[1] = 0.0;
   ear->n_heard = 0;
 }
 
@@ -71,12 +76,22 @@ TuningTarget intonation_retune(Intonation* ear, const TuningTarget* target, uint
   return moved;
 }
 
+static double turn_between(const double y[2], const double z[2]) {
+  return atan2(z[1] * y[0] - z[0] * y[1], z[0] * y[0] + z[1] * y[1]);
+}
+
+/* Whole turns that one sum is ahead of the one before, by how its halves are turned. */
+static double whole_turns(const Intonation* ear, double turned) {
+  const double rest[] = {ear->sum[0] - ear->half[0], ear->sum[1] - ear->half[1]};
+  const double about = 2.0 * turn_between(ear->half, rest);
+  return ear->half_due < HUGE_VAL ? 2.0 * PI * round((about - turned) / (2.0 * PI)) : 0.0;
+}
+
 /* Cents by which what was heard is above what is wanted, from how far one sum is turned against
  * the one before. */
 static double error_of(const Intonation* ear, double n_frames) {
-  const double* const z = ear->sum;
-  const double* const y = ear->before;
-  const double turned = atan2(z[1] * y[0] - z[0] * y[1], z[0] * y[0] + z[1] * y[1]);
+  const double near = turn_between(ear->before, ear->sum);
+  const double turned = near + whole_turns(ear, near);
   const double wanted = 2.0 * PI * ear->target.tone.f0_hz / ear->target.rate_hz * n_frames;
   return 1200.0 * log2(1.0 + fmax(-0.5, turned / wanted));
 }
@@ -100,6 +115,10 @@ static void add(Intonation* ear, double speed) {
   ear->now[0] = x * ear->turn[0].value - y * ear->turn[1].value;
   ear->now[1] = x * ear->turn[1].value + y * ear->turn[0].value;
   ++ear->n_heard;
+  if (ear->n_heard <= ear->half_due) {
+    ear->half[0] = ear->sum[0];
+    ear->half[1] = ear->sum[1];
+  }
 }
 
 /* What a turn that moves in a straight line loses in length, and rounding. */

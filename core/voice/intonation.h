@@ -8,7 +8,8 @@
 
        z = Σ v(n) exp(−2πi F n/rate),
 
-   turns from one sum to the next by 2π (f − F) times the time between them.  The string is tuned
+   turns from one sum to the next by 2π (f − F) times the time between them; how its halves are
+   turned against each other tells by how many whole turns.  The string is tuned
    against a share of that, in a straight line until the next sum, so what is left of the error
    falls to nothing in some sums.  It moves by at most INTONATION_MOST_CENTS.
 
@@ -37,8 +38,10 @@ typedef struct {
   Line turn[2];        /**< exp(−2πi F/rate); it moves while others move the string */
   double now[2];       /**< exp(−2πi F n/rate) */
   double sum[2];       /**< z, so far */
+  double half[2];      /**< z, of its first half */
   double before[2];    /**< z, of the last sum; 0: none */
   double due;          /**< Frame at which a sum ends; what is over counts for the next */
+  double half_due;     /**< Frame at which half of it does; HUGE_VAL: none */
   uint32_t n_heard;    /**< Frames in the sum so far */
   bool is_active;
 } Intonation;

@@ -49,7 +49,7 @@ static void a_swell_goes_in_a_straight_line(void** state) {
       const double strength = before + way * (swells[k].got - before);
       bow_frames(&strung, &bow, 1);
       assert_true(fabs(bow.hair - strength * speed) <= 1e-12 * speed);
-      assert_true(bow.pressed.value == force && bow.paced.value == bow.drawn.value);
+      assert_true(bow.pressed.value == force);
       assert_true(bow.is_active);
     }
     before = bow.strength.value;
@@ -99,13 +99,13 @@ static void a_stroke_takes_over_from_the_one_before(void** state) {
     bow_start(&bow, &strung.chain, stroke, strung.angle1, 48000.0);
     const double force = was.strength.value * was.pressed.value;
     const double hair_step = fabs(bow.drawn.goal - was.hair) / n_frames;
-    const double force_step = 2.0 * fabs(bow.pressed.goal - force) / n_frames;
+    const double force_step = fabs(bow.pressed.goal - force) / (0.3 * n_frames);
     bow_frames(&strung, &bow, 1);
     assert_true(fabs(bow.hair - was.hair) <= hair_step * (1.0 + 1e-9));
     assert_true(fabs(bow.pressed.value - force) <= force_step * (1.0 + 1e-9));
     assert_true(fabs(bow.place.value - was.place.value) <= 0.3 / n_frames);
     bow_frames(&strung, &bow, (uint32_t)n_frames);
-    assert_true(bow.place.value == fmax(0.03, stroke.place) && bow.hair == bow.drawn.goal);
+    assert_true(bow.place.value == fmin(stroke.place, 0.2) && bow.hair == bow.drawn.goal);
     assert_true(bow.strength.value == 1.0 && bow.is_active && !bow.is_lifted);
     const Contact contact = contact_at(&strung.chain, bow.place.value);
     assert_true(fabs(bow.before - contact_velocity(&strung.chain, &contact)) < 1e-6 * bow.hair);
@@ -113,8 +113,7 @@ static void a_stroke_takes_over_from_the_one_before(void** state) {
 }
 
 /* The most that Schelleng's bow can press: 2 √k1 b/β, which the corner brings, is what friction
- * falls by at the speed b/β with which the string slips back. No pressure is 0.65 of it, all 1.6.
- */
+ * falls by where it slips fast.  At 0.13 no pressure is 0.36 of it, all 0.47. */
 static void force_is_a_share_of_schellengs_most(void** state) {
   (void)state;
   double worst = 0.0;
@@ -125,9 +124,8 @@ static void force_is_a_share_of_schellengs_most(void** state) {
       strung_key(&strung, memory, key, 48000.0, 128, 2.0);
       bow_start(&bow, &strung.chain, (Stroke){0.1, 0.1 * tenth, 0.2, 0.04, 0.03}, strung.angle1,
                 strung.rate_hz);
-      const double fall = 0.8 - (0.3 + 0.5 / (1.0 + 1.0));
-      const double most = 2.0 * bow.drawn.goal / (0.1 * fall);
-      const double share = 0.65 * pow(1.6 / 0.65, 0.1 * tenth);
+      const double most = 2.0 * bow.drawn.goal / (0.1 * (0.8 - 0.3));
+      const double share = 0.36 * pow(0.47 / 0.36, 0.1 * tenth) * pow(0.1 / 0.13, 0.2);
       worst = fmax(worst, fabs(bow.pressed.goal / (share * most) - 1.0));
     }
   }

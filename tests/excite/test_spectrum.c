@@ -251,7 +251,7 @@ static void bows_give_about_what_is_told(void** state) {
       Strung strung;
       strung_key(&strung, memory, key, RATE, 64, 2.0);
       bow_it(&strung, places[p]);
-      const Spectrum spectrum = spectrum_of_bow(places[p], strung.angle1, strung.f0_hz);
+      const Spectrum spectrum = spectrum_of_bow(places[p], strung.angle1);
       tell_squares(&strung, &spectrum, told);
       for (int i = 0; i < N_POWERS; ++i) {
         stretch_to(&span[i], decibels_over(1, strung.chain.n_masses, i, 0.01));
