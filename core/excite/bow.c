@@ -20,15 +20,28 @@ static const double ROLL_SPRING = 1.8;
 /* A bow is so wide that it comes no nearer to a wall, nor so near that a slip would take fewer
  * frames than these; and further out the string is all too ready to slip twice a period. */
 static const double LEAST_PLACE = 0.05;
-static const double SLIP_FRAMES = 3.0;
+static const double SLIP_FRAMES = 4.0;
 static const double MOST_PLACE = 0.2;
+static const double FARTHEST =
+    0.222; /* Half way between nodes of the fourth partial and the fifth */
 
 /* Force, of the most with which each round of the string still pulls the hair off, for no pressure
  * and for all, at a place; nearer to the wall the string asks for less of it. */
 static const double LIGHTEST = 0.36;
 static const double HEAVIEST = 0.47;
 static const double USUAL_PLACE = 0.13;
-static const double NEARER = 0.2;
+static const double NEARER = 0.25;
+
+/* The hair's other edge drags at the string as it slips there: how far it is away, and its damper,
+ * of the string's impedance. */
+static const double WIDTH = -0.02;
+static const double EDGE = 0.03;
+
+/* What the hair is drawn faster than the string is to go, for the string rolls back under it; and
+ * the more so from a place on. */
+static const double SLACK = 1.15;
+static const double MORE_SLACK = 0.9;
+static const double TIGHT_PLACE = 0.1;
 
 /* Time in which it is pressed, of that in which it comes to its speed. */
 static const double PRESSING = 0.3;
@@ -87,6 +100,10 @@ static void settle(Bow* bow, const Meeting* m) {
   bow->friction = bow->state == BOW_STICKS ? -m->free / m->yield : -sign * friction_at(m, speed);
 }
 
+static Contact edge_at(const Chain* chain, double place) {
+  return contact_at(chain, place + (place < 0.5 ? WIDTH : -WIDTH));
+}
+
 /* What is given to a string in its own time is the same at any pitch. */
 static void follow(Bow* bow, const Chain* chain) {
   bow->haste = sqrt(fmax(0.0, chain_pace(chain) / bow->pace));
@@ -117,7 +134,8 @@ static void take_over(Bow* bow, double spring) {
 /* Where it can be bowed: fraction of the length from the nearer wall, then from the one. */
 double bow_place(double wanted, double angle1) {
   const double least = fmax(LEAST_PLACE, SLIP_FRAMES * angle1 / (2.0 * PI));
-  const double beta = fmin(fmax(fmin(wanted, 1.0 - wanted), least), MOST_PLACE);
+  const double most = fmax(MOST_PLACE, fmin(least, FARTHEST));
+  const double beta = fmin(fmax(fmin(wanted, 1.0 - wanted), least), most);
   return wanted > 0.5 ? 1.0 - beta : beta;
 }
 
@@ -131,7 +149,8 @@ void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, doubl
   /* Near half the rate a place hardly moves from one step to the next but one, however far it
    * swings. */
   const double swing = sin(angle1);
-  const double speed = 8.0 * beta * (1.0 - beta) * stroke.amplitude * swing / (2.0 * PI);
+  const double speed = 8.0 * beta * (1.0 - beta) * stroke.amplitude * swing / (2.0 * PI) * SLACK *
+                       (1.0 + MORE_SLACK * fmax(0.0, beta - TIGHT_PLACE));
   /* Schelleng's most: the corner brings 2 √k1 b/β, and friction falls by so much at its slip. */
   const double heavy = 2.0 / (beta * (STATIC - DYNAMIC)) * pow(beta / USUAL_PLACE, NEARER);
   const double force = heavy * LIGHTEST * pow(HEAVIEST / LIGHTEST, stroke.pressure) * speed;
@@ -148,6 +167,7 @@ void bow_start(Bow* bow, const Chain* chain, Stroke stroke, double angle1, doubl
   line_to(&bow->drawn, speed, n_attack);
   line_to(&bow->pressed, force, frames_of(PRESSING * stroke.attack_s, rate_hz));
   bow->pace = chain_pace(chain);
+  bow->full = force;
   bow->haste = 1.0;
   bow->n_lift = frames_of(stroke.release_s, rate_hz);
   bow->spring = spring;
@@ -167,7 +187,9 @@ void bow_lift(Bow* bow) {
 
 void bow_notice(Bow* bow, const Chain* chain) {
   const Contact contact = contact_at(chain, bow->place.value);
+  const Contact edge = edge_at(chain, bow->place.value);
   bow->before = contact_velocity(chain, &contact);
+  bow->beside = contact_velocity(chain, &edge);
 }
 
 bool bow_act(Bow* bow, Chain* chain) {
@@ -175,25 +197,36 @@ bool bow_act(Bow* bow, Chain* chain) {
     return false;
   }
   const Contact contact = contact_at(chain, bow->place.value);
+  const Contact edge = edge_at(chain, bow->place.value);
   const double impedance = sqrt(chain->now.k1);
   follow(bow, chain);
   const double after = contact_velocity(chain, &contact);
   const double spring = impedance * bow->haste * bow->spring;
   const double roll = 1.0 / (impedance * ROLL + 0.5 * spring);
-  const double yield = 0.5 * contact.square + roll;
   const double force = bow->haste * bow->strength.value * bow->pressed.value * impedance;
+  /* The edge's drag, whatever the friction; and what each does to the other. */
+  const double touch = EDGE * impedance * fmin(1.0, bow->pressed.value / bow->full);
+  const double drag = touch / (1.0 + 0.5 * touch * edge.square);
+  const double both = 0.5 * contact_overlap(&contact, &edge);
+  const double beside = contact_velocity(chain, &edge);
+  const double edge_free = 0.5 * (beside + bow->beside) - bow->hair;
   const Meeting m = {
-      .free = 0.5 * (after + bow->before) - bow->hair - roll * spring * bow->rolled,
-      .yield = yield,
+      .free = 0.5 * (after + bow->before) - bow->hair - roll * spring * bow->rolled -
+              both * drag * edge_free,
+      .yield = 0.5 * contact.square + roll - both * both * drag,
       .force = force,
       .v0 = fmax(DBL_MIN, HALF_WAY * bow->hair),
   };
   settle(bow, &m);
   bow->rolled += roll * (bow->friction - spring * bow->rolled);
+  bow->drag = -drag * (edge_free + both * bow->friction);
   contact_push(chain, &contact, bow->friction);
-  const double now = after + contact.square * bow->friction;
-  bow->work = 0.5 * bow->friction * (now + bow->before);
+  contact_push(chain, &edge, bow->drag);
+  const double now = after + contact.square * bow->friction + 2.0 * both * bow->drag;
+  const double edge_now = beside + edge.square * bow->drag + 2.0 * both * bow->friction;
+  bow->work = 0.5 * (bow->friction * (now + bow->before) + bow->drag * (edge_now + bow->beside));
   bow->before = now;
+  bow->beside = edge_now;
   move_on(bow, chain);
   return bow->is_active;
 }

@@ -10,23 +10,29 @@
 
        μ(v) = sgn(v) (μd + (μs − μd)/(1 + |v|/v0)),   any from −μs to μs where it sticks, v = 0,
 
-   so both the branch that sticks and those that slip have closed forms.  v0 is so large that
-   friction never falls faster than the string gives way to it: from sticking to slipping nothing
-   jumps.  Where it jumped, it could only do so from one frame to the next, so that high strings
-   fell into step with the frames; and a string that jumps late, and back late, is flat.
+   so both the branch that sticks and those that slip have closed forms.  It falls sharply, v0 =
+   b/5, which lets the string go at once and catches it at once: what slips goes on slipping until v
+   passes 0, and what sticks holds up to μs F.
 
    A string rolls under the hair, too, which swallows some of what a hard grip would throw back. The
    roll is a damper r and a spring s side by side, and v has its speed w beside the string's own:
 
        f = r w + s (q + w/2),   q ← q + w.
 
-   So in a step the string's energy grows by f (v + b − w), in which f v ≤ 0 is heat, and f w is r
-   w² and what ½ s q² grows by: string and roll together get at most the bow's f b.
+   The hair is not a line: where its edge is, a little nearer to the wall, it drags at the string by
+   d = −R (v_d − b), v_d being the edge's (u' + u)/2.  So partials that have a node at the bow,
+   which friction could not hold, do not grow.  Both are solved for as one.
 
-   The string moves as Helmholtz's then: one slip a period in most cases, and at its own pitch but
-   for some cents, which core/voice/intonation.h makes good.  In the middle of the string and on the
-   node of its fourth partial nothing holds it to its period, and where a slip would take less than
-   three frames it could not be told from none; so there the bow keeps away, as a fiddler does.
+   In a step the string's energy grows by f (v + b − w) + d v_d, in which f v and d (v_d − b) are
+   heat, ≤ 0, and f w is r w² and what ½ s q² grows by: string and roll together get at most what
+   the bow gives, (f + d) b.
+
+   The string moves as Helmholtz's then, one slip a period that lasts β of it, if F is in
+   Schelleng's window: at most F = 2 √k1 b/(β (μs − μd)), which is what the corner brings, and not
+   too far below that.  The pressure goes from the one end of where it does to the other.  It sounds
+   a little flat, which core/voice/intonation.h makes good.  In the middle of the string nothing
+   holds it to its period, and where a slip would take less than four frames it could not be told
+   from none; so there the bow keeps away, as a fiddler does.
 
    Thread: one at a time; real-time safe.
 */
@@ -61,6 +67,9 @@ typedef struct {
   double pace;     /**< Of the string when the stroke began, see chain_pace() */
   double haste;    /**< How fast the string's clock goes against that: the bow is drawn in it */
   double before;   /**< eᵀu before the step */
+  double beside;   /**< The same at the edge of the hair */
+  double full;     /**< F of this stroke, once it is pressed */
+  double drag;     /**< What the edge of the hair did to the string in the last step */
   double rolled;   /**< q */
   double hair;     /**< b of the last step */
   double slip;     /**< v of the last step */

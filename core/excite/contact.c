@@ -16,6 +16,16 @@ Contact contact_at(const Chain* chain, double place) {
   };
 }
 
+double contact_overlap(const Contact* a, const Contact* b) {
+  double sum = 0.0;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      sum += a->mass[i] == b->mass[j] ? a->weight[i] * b->weight[j] : 0.0;
+    }
+  }
+  return sum;
+}
+
 double contact_position(const Chain* chain, const Contact* contact) {
   return contact->weight[0] * chain_numbers_position(chain, contact->mass[0]) +
          contact->weight[1] * chain_numbers_position(chain, contact->mass[1]);

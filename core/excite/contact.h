@@ -27,6 +27,9 @@ typedef struct {
 /** The place at a fraction of the length, 0 to 1; kept off the walls by one mass. */
 Contact contact_at(const Chain* chain, double place);
 
+/** eᵀe of two places. */
+double contact_overlap(const Contact* a, const Contact* b);
+
 /** eᵀx. */
 double contact_position(const Chain* chain, const Contact* contact);
 

@@ -9,14 +9,10 @@
  * pole at both edges, and the narrowest is as wide as one of an odd number's. */
 static const double WIDER = 1.0005;
 
-/* What bows are measured to do at places from 0.05 to 0.2: Helmholtz's motion is softer than it was
- * asked for [dB], and the more so from a place on [dB of each length]; s² where a node begins to be
- * one, and what a mode loses in a radian of the fundamental when its corner is round. */
-static const double BOW_LOST_DB = 1.2;
-static const double BOW_FULL = 0.1;
-static const double BOW_MORE_LOST_DB = 8.0;
+/* Where a node of a mode begins to be one, s², and what a mode loses in a radian of the fundamental
+ * when its corner is round: as bows at places from 0.05 to 0.2 are measured to do. */
 static const double NODE = 0.01;
-static const double ROUND = 0.1;
+static const double ROUND = 0.06;
 
 /* The rehearsed partials that are taken as they are, and those, of so many, whose means tell how
  * the rest go on: the last are too few masses' own. */
@@ -109,20 +105,20 @@ Spectrum spectrum_of_strike(uint32_t n_masses, Strike strike, double angle1) {
 
 Spectrum spectrum_of_bow(double place, double angle1) {
   const double at = bow_place(place, angle1);
-  const double beta = fmin(at, 1.0 - at);
-  const double lost_db = BOW_LOST_DB + BOW_MORE_LOST_DB * fmax(0.0, beta - BOW_FULL);
   return (Spectrum){
       .exciter = EXCITER_BOW,
       .angles = {2.0 * PI * at, 0.0},
-      .push = 8.0 / (PI * PI) * pow(10.0, -0.05 * lost_db),
+      .push = 8.0 / (PI * PI),
       .angle1 = angle1,
   };
 }
 
-static double bowed_square(const Spectrum* s, double k, double loss, double sine2) {
-  const double amplitude = s->push / (k * k);
-  const double lost = loss / ROUND;
-  return amplitude * amplitude * sine2 / ((sine2 + NODE) * (1.0 + lost * lost));
+/* `at` is s². */
+static double bowed_square(const Spectrum* s, Pole mode, double at) {
+  const double sine2 = mode.a * (1.0 - 0.25 * mode.a);
+  const double first = s->push * sin(s->angle1) * sin(0.5 * s->angle1);
+  const double lost = mode.g / (ROUND * s->angle1);
+  return first * first / (sine2 * 0.25 * mode.a) * at / ((at + NODE) * (1.0 + lost * lost));
 }
 
 double spectrum_square(const Spectrum* s, uint32_t k, Pole mode, const double cosines[2]) {
@@ -141,7 +137,7 @@ double spectrum_square(const Spectrum* s, uint32_t k, Pole mode, const double co
     return s->push * s->push * share / sine2;
   }
   case EXCITER_BOW:
-    return bowed_square(s, k, mode.g / s->angle1, 0.5 - 0.5 * cosines[0]);
+    return bowed_square(s, mode, 0.5 - 0.5 * cosines[0]);
   }
   return 0.0;
 }

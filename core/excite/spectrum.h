@@ -8,9 +8,9 @@
    edges; of few masses, those under it are summed one by one;
    - a strike's is the spectrum of a hammer's rehearsal (core/excite/rehearsal.h), which falls on as
    it last did where that has no more masses;
-   - under a bow it moves as Helmholtz's does, so X_k = 8/π² A/k², but where the bow is at a node of
-   the mode, and but for what the mode loses in a round, which makes the corner that goes round
-   rounder.
+   - under a bow it moves as Helmholtz's does, from frame to frame, X_k sin ω_k sin(ω_k/2) = 8/π² A
+   sin ω_1 sin(ω_1/2), but where the bow is at a node of the mode, and but for what the mode loses
+   in a round, which makes the corner that goes round rounder.
 
    Thread: any; real-time safe.
 */

@@ -99,12 +99,16 @@ static void power_comes_from_the_bow_alone(void** state) {
       bow_act(&bow, &strung.chain);
       strung_read(&strung, new);
       const double speed = 0.5 * (place_velocity(place, old) + place_velocity(place, new));
+      const double edge = place + (place < 0.5 ? -0.02 : 0.02);
+      const double edge_speed = 0.5 * (place_velocity(edge, old) + place_velocity(edge, new));
       const double after = strung_energy(new, coefs);
       const double gained = after - before + strung_lost(old, new, coefs);
       const double roll = 0.5 * bow.spring * sqrt(coefs.k1) * bow.rolled * bow.rolled;
-      size = fmax(size, fmax(fabs(bow.friction * bow.hair), after + roll));
-      worst = fmax(worst, fabs(gained - bow.friction * speed) / size);
-      worst_gift = fmax(worst_gift, (gained + roll - rolled - bow.friction * bow.hair) / size);
+      const double pulled = (bow.friction + bow.drag) * bow.hair;
+      size = fmax(size, fmax(fabs(pulled), after + roll));
+      worst = fmax(worst, fabs(gained - bow.friction * speed - bow.drag * edge_speed) / size);
+      worst_gift = fmax(worst_gift, (gained + roll - rolled - pulled) / size);
+      assert_true(bow.drag * (edge_speed - bow.hair) <= 1e-12 * size);
       /* Where it sticks, the string and its roll go with the hair. */
       const double roll_speed = bow.slip + bow.hair - speed;
       const double pull = sqrt(coefs.k1) * roll_speed * (2.0 + 0.5 * bow.spring) +
@@ -122,7 +126,7 @@ static void power_comes_from_the_bow_alone(void** state) {
   print_message("  steps: %u stick, %u slip back, %u ahead\n", n_of[0], n_of[1], n_of[2]);
   assert_within("energy gained, less the work of the friction", worst, 1e-12);
   assert_within("energy that neither bow nor friction gave", worst_gift, 1e-12);
-  assert_within("roll against friction", worst_speed, 1e-8);
+  assert_within("roll against friction", worst_speed, 2e-8);
   assert_true(n_of[0] > 1000 && n_of[1] > 1000 && n_of[2] > 100);
 }
 
@@ -148,7 +152,7 @@ static void storms_of_strokes_stay_bounded(void** state) {
       }
       strung_step(&strung, 0);
       if (bow_act(&bow, &strung.chain)) {
-        given += fmax(0.0, bow.friction * bow.hair);
+        given += fmax(0.0, (bow.friction + bow.drag) * bow.hair);
       }
     }
     strung_read(&strung, &motion);

@@ -94,7 +94,6 @@ static double fundamental_decibels(const Bowed* bowed, double from_s) {
 
 typedef struct {
   double early, late, softest, moved;
-  uint32_t n, n_off; /* More than 3 cents, from 0.5 s on */
 } Worst;
 
 static void hear(Setting s, Worst* worst) {
@@ -111,8 +110,6 @@ static void hear(Setting s, Worst* worst) {
   }
   worst->early = fmax(worst->early, early);
   worst->late = fmax(worst->late, late);
-  worst->n_off += late <= 3.0 ? 0 : 1;
-  ++worst->n;
   worst->softest = fmin(worst->softest, decibels);
   worst->moved = fmax(worst->moved, fabs(bowed.intonation.cents));
 }
@@ -141,15 +138,12 @@ static void bowed_strings_have_the_pitch_that_was_asked_for(void** state) {
   (void)state;
   const Worst high = hear_all(60, 103, 4, 0.0);
   print_message("  moved by up to %.1f cents\n", high.moved);
-  assert_within("cents from 0.15 s on, key 60 and up", high.early, 3.0);
+  assert_within("cents from 0.15 s on, key 60 and up", high.early, 1.0);
   assert_within("cents from 0.5 s on, key 60 and up", high.late, 1.0);
-  assert_within("dB too soft", -high.softest, 12.0);
+  assert_within("dB too soft", -high.softest, 6.0);
   const Worst low = hear_all(33, 59, 4, 0.0);
-  /* A few of those that are bowed lightly and far from the wall slip three times a period. */
-  print_message("  %u of %u are more than 3 cents off, at most %.1f\n", low.n_off, low.n, low.late);
-  assert_within("share off below key 60", (double)low.n_off / low.n, 0.005);
-  assert_within("cents from 0.5 s on, below key 60", low.late, 15.0);
-  assert_within("dB too soft", -low.softest, 20.0);
+  assert_within("cents from 0.5 s on, below key 60", low.late, 3.0);
+  assert_within("dB too soft", -low.softest, 3.0);
   const Worst stiff = hear_all(45, 96, 6, 3e-5);
   assert_within("cents from 0.5 s on, stiff strings", stiff.late, 3.0);
 }

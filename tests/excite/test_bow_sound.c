@@ -96,9 +96,86 @@ static void bowed_strings_move_as_helmholtz_said(void** state) {
     print_message("\n");
   }
   assert_within("slips a period, off one", worst_slips, 1e-3);
-  assert_within("cents", worst_cents, 6.0);
-  assert_within("dB too soft", -least, 3.0);
-  assert_within("dB too loud", most, 3.0);
+  assert_within("cents", worst_cents, 10.0);
+  assert_within("dB too soft", -least, 1.0);
+  assert_within("dB too loud", most, 1.0);
+}
+
+/* What the string does in its last quarter of a second, of one that is bowed for a second. */
+typedef struct {
+  double share;    /* Of the time, that it slips, of β */
+  double aside;    /* How far the bow holds it aside at its place, of the amplitude asked for */
+  double partials; /* k² X_k/X_1 of Helmholtz's, the worst off to 12, but for
+                      those that have a node at the bow, or less than eight frames a period [dB] */
+} Motions;
+
+enum { PARTIALS = 12 };
+
+static double sine_at(const Strung* strung, uint32_t k, uint32_t i) {
+  return sin(PI * k * (i + 1.0) / (strung->chain.n_masses + 1.0));
+}
+
+static Motions motions_of(Strung* strung, double beta) {
+  const size_t n_all = (size_t)strung->rate_hz;
+  const size_t first = n_all - n_all / 4;
+  const uint32_t n = strung->chain.n_masses;
+  const uint32_t at = (uint32_t)(beta * (n + 1.0)) - 1;
+  double sums[PARTIALS] = {0.0};
+  double squares[PARTIALS] = {0.0};
+  double aside = 0.0;
+  double slips = 0.0;
+  Bow bow = {0};
+  bow_start(&bow, &strung->chain, (Stroke){beta, 0.5, 0.25, 0.04, 0.03}, strung->angle1,
+            strung->rate_hz);
+  for (size_t frame = 0; frame < n_all; ++frame) {
+    strung_step(strung, 0);
+    bow_act(&bow, &strung->chain);
+    if (frame >= first) {
+      slips += bow.state == BOW_STICKS ? 0.0 : 1.0;
+      aside += (double)chain_position(&strung->chain, at);
+      for (uint32_t k = 1; k <= PARTIALS; ++k) {
+        double x = 0.0;
+        for (uint32_t i = 0; i < n; ++i) {
+          x += sine_at(strung, k, i) * (double)chain_position(&strung->chain, i);
+        }
+        sums[k - 1] += x;
+        squares[k - 1] += x * x;
+      }
+    }
+  }
+  const double n_heard = (double)(n_all - first);
+  Motions motions = {slips / n_heard / beta, aside / n_heard / 0.25, 0.0};
+  double powers[PARTIALS];
+  for (uint32_t k = 1; k <= PARTIALS; ++k) {
+    powers[k - 1] = squares[k - 1] / n_heard - pow(sums[k - 1] / n_heard, 2.0);
+    const double off = 10.0 * log10(powers[k - 1] / powers[0]) + 40.0 * log10(k);
+    const bool is_node = fabs(sin(PI * k * beta)) < 0.5;
+    const bool is_high = k * strung->angle1 > 0.8;
+    motions.partials = fmax(motions.partials, is_node || is_high ? 0.0 : fabs(off));
+  }
+  return motions;
+}
+
+static void slips_and_partials_are_helmholtzs(void** state) {
+  (void)state;
+  static const double betas[] = {0.08, 0.13, 0.17};
+  double worst_share = 0.0;
+  double worst_partial = 0.0;
+  double most_aside = 0.0;
+  for (uint32_t key = 33; key <= 81; key += 6) {
+    for (uint32_t r = 1; r < 4; ++r) {
+      Strung strung;
+      const double beta = betas[(key / 6 + r) % 3];
+      strung_key(&strung, memory, key, strung_rate_hz(r), 128, 2.0);
+      const Motions motions = motions_of(&strung, beta);
+      worst_share = fmax(worst_share, fabs(motions.share - 1.0));
+      worst_partial = fmax(worst_partial, motions.partials);
+      most_aside = fmax(most_aside, fabs(motions.aside));
+    }
+  }
+  assert_within("time that it slips, off", worst_share, 0.2);
+  assert_within("dB of partials to the twelfth", worst_partial, 3.0);
+  assert_within("held aside, of the amplitude", most_aside, 0.35);
 }
 
 static double largest_bend(const float* samples, size_t n) {
@@ -163,6 +240,7 @@ static void attack_makes_no_click(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(bowed_strings_move_as_helmholtz_said),
+      cmocka_unit_test(slips_and_partials_are_helmholtzs),
       cmocka_unit_test(lifted_strings_ring_on_as_they_are),
       cmocka_unit_test(attack_makes_no_click),
   };

@@ -125,7 +125,7 @@ static void force_is_a_share_of_schellengs_most(void** state) {
       bow_start(&bow, &strung.chain, (Stroke){0.1, 0.1 * tenth, 0.2, 0.04, 0.03}, strung.angle1,
                 strung.rate_hz);
       const double most = 2.0 * bow.drawn.goal / (0.1 * (0.8 - 0.3));
-      const double share = 0.36 * pow(0.47 / 0.36, 0.1 * tenth) * pow(0.1 / 0.13, 0.2);
+      const double share = 0.36 * pow(0.47 / 0.36, 0.1 * tenth) * pow(0.1 / 0.13, 0.25);
       worst = fmax(worst, fabs(bow.pressed.goal / (share * most) - 1.0));
     }
   }

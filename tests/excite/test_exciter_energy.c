@@ -115,10 +115,14 @@ static void look(Played* played) {
   }
 }
 
+/* The hammer with the bow, or the edge of its hair. */
 static bool share_a_mass(const Played* played) {
+  const double place = played->bow.place.value;
   const Contact a = contact_at(&played->strung.chain, played->hammer.make.place);
-  const Contact b = contact_at(&played->strung.chain, played->bow.place.value);
-  return a.mass[0] <= b.mass[1] && b.mass[0] <= a.mass[1];
+  const Contact b = contact_at(&played->strung.chain, place);
+  const Contact c = contact_at(&played->strung.chain, place + (place < 0.5 ? -0.02 : 0.02));
+  return (a.mass[0] <= b.mass[1] && b.mass[0] <= a.mass[1]) ||
+         (a.mass[0] <= c.mass[1] && c.mass[0] <= a.mass[1]);
 }
 
 static void step(Played* played) {
@@ -137,7 +141,7 @@ static void step(Played* played) {
   bow_act(bow, chain);
   strung_read(&played->strung, after);
   played->current = after;
-  const double work = was_bowed ? bow->friction * bow->hair : 0.0;
+  const double work = was_bowed ? (bow->friction + bow->drag) * bow->hair : 0.0;
   const double lost = strung_lost(before, after, chain->now);
   const double energy = all_energy(played);
   played->size = fmax(played->size, fmax(energy, fabs(work)));
