@@ -36,6 +36,7 @@ static const double NEARER = 0.25;
  * of the string's impedance. */
 static const double WIDTH = -0.02;
 static const double EDGE = 0.03;
+static const double FEEBLE = 0.125; /* The strength below which it drags less */
 
 /* What the hair is drawn faster than the string is to go, for the string rolls back under it; and
  * the more so from a place on. */
@@ -205,7 +206,8 @@ bool bow_act(Bow* bow, Chain* chain) {
   const double roll = 1.0 / (impedance * ROLL + 0.5 * spring);
   const double force = bow->haste * bow->strength.value * bow->pressed.value * impedance;
   /* The edge's drag, whatever the friction; and what each does to the other. */
-  const double touch = EDGE * impedance * fmin(1.0, bow->pressed.value / bow->full);
+  const double touch = EDGE * impedance * fmin(1.0, bow->strength.value / FEEBLE) *
+                       fmin(1.0, bow->pressed.value / bow->full);
   const double drag = touch / (1.0 + 0.5 * touch * edge.square);
   const double both = 0.5 * contact_overlap(&contact, &edge);
   const double beside = contact_velocity(chain, &edge);

@@ -175,7 +175,7 @@ static void slips_and_partials_are_helmholtzs(void** state) {
   }
   assert_within("time that it slips, off", worst_share, 0.2);
   assert_within("dB of partials to the twelfth", worst_partial, 3.0);
-  assert_within("held aside, of the amplitude", most_aside, 0.35);
+  assert_within("held aside, of the amplitude", most_aside, 0.4);
 }
 
 static double largest_bend(const float* samples, size_t n) {
