@@ -19,13 +19,12 @@
 enum { LARGEST = 4096, MOST_EVENTS = 12, MOST_BYTES = 9 };
 
 /*
-  A pluck's peak is 0.25, level is at most 12 dB, and where little of a string is heard it is played
-  up to eight times as hard.  Plucks of one key add and so do keys, but at random.  A bend that goes
-  down by n octaves makes 2^(n/2) of what swings; leaders and members of a zone bend by up to 16
-  octaves.  An instability would be beyond any bound in some hundred frames.
+  Eight times full scale, at the level's +12 dB.  Longer storms and others meet, now and then,
+  strings that are bent up by seven octaves while they are read by their velocity, which grows by as
+  much; an instability would be beyond any bound in some hundred frames.
 */
-static const double MOST_PEAK = 128 * 0.25 * 3.9811 * 8.0;
-static const double MOST_BENT = 256.0;
+static const double MOST_PEAK = 8.0 * 3.9811;
+static const double MOST_BENT = 16.0;
 
 typedef struct {
   double rate_hz;
@@ -189,7 +188,9 @@ static void a_storm_is_survived(void** state) {
   calm(&storm);
   print_message("%g s at %g Hz, %u plucks, least headroom %g\n", seconds, weather->rate_hz,
                 storm.n_plucks, storm.least_headroom);
-  assert_within("peak", storm.peak, weather->is_limited ? 1.0 : MOST_PEAK * MOST_BENT);
+  const bool is_usual = !getenv("HOOKE_TEST_LONG") && !getenv("HOOKE_TEST_SEED");
+  const double most = is_usual ? MOST_PEAK : MOST_PEAK * MOST_BENT;
+  assert_within("peak", storm.peak, weather->is_limited ? 1.0 : most);
   assert_true(storm.peak > 0.0 && storm.n_plucks > 50);
   host_free(storm.host);
 }
