@@ -69,13 +69,14 @@ static bool is_out_of_memory(ScaleText* text) {
   return false;
 }
 
-/* As many as there can be in what is left, at two bytes each, whatever number was promised. */
+/* As many as there can be in what is left, at two bytes each, whatever number was promised; and one
+ * where there are none. */
 static bool take_memory(ScaleText* text, Scale* scale) {
   const size_t n_left = (size_t)(text->end - text->next) / 2 + 1;
   const size_t n_notes = scale->n_notes < n_left ? scale->n_notes : n_left;
-  scale->memory = n_notes > 0 ? malloc(n_notes * sizeof(ScalePitch)) : NULL;
+  scale->memory = malloc((n_notes > 0 ? n_notes : 1) * sizeof(ScalePitch));
   scale->pitches = scale->memory;
-  return scale->memory || n_notes == 0 || is_out_of_memory(text);
+  return scale->memory || is_out_of_memory(text);
 }
 
 static bool read_scale(ScaleText* text, Scale* scale) {
@@ -143,7 +144,7 @@ static bool take_entry(ScaleText* text, int32_t* degree) {
 
 static bool read_entries(ScaleText* text, ScaleMap* map) {
   bool is_there = true;
-  map->degrees = map->n_entries > 0 ? malloc(map->n_entries * sizeof(int32_t)) : NULL;
+  map->degrees = map->n_entries > 0 ? calloc(map->n_entries, sizeof(int32_t)) : NULL;
   if (!map->degrees && map->n_entries > 0) {
     return is_out_of_memory(text);
   }
