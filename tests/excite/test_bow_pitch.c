@@ -148,6 +148,22 @@ static void bowed_strings_have_the_pitch_that_was_asked_for(void** state) {
   assert_within("cents from 0.5 s on, stiff strings", stiff.late, 3.0);
 }
 
+static void the_ear_takes_a_tenth_of_a_second(void** state) {
+  (void)state;
+  static const double places[] = {0.08, 0.13, 0.2};
+  double worst = 0.0;
+  for (uint32_t key = 47; key <= 95; key += 4) {
+    for (int p = 0; p < 9; ++p) {
+      Bowed bowed;
+      take_up(&bowed, (Setting){key, 48000.0, places[p % 3], 0.2 + 0.3 * (p / 3), 0.0, 128});
+      play(&bowed, 0, 24000);
+      const double until_s = 0.1 + fmax(0.1, 18.0 / bowed.target.tone.f0_hz);
+      worst = fmax(worst, cents_between(&bowed, 0.1, until_s));
+    }
+  }
+  assert_within("cents from 0.1 s on", worst, 10.0);
+}
+
 /* Once the bow is lifted the string is at its own pitch within a gesture, and nothing clicks. */
 static void lifted_strings_go_home(void** state) {
   (void)state;
@@ -245,6 +261,7 @@ static void bends_and_vibrato_are_followed(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(bowed_strings_have_the_pitch_that_was_asked_for),
+      cmocka_unit_test(the_ear_takes_a_tenth_of_a_second),
       cmocka_unit_test(lifted_strings_go_home),
       cmocka_unit_test(the_string_is_moved_gently),
       cmocka_unit_test(bends_and_vibrato_are_followed),
