@@ -6,8 +6,8 @@
 #include <float.h>
 #include <math.h>
 
-/* Friction at rest and where it slips fast, and the speed, of the hair's, at which it is half way.
- */
+/* Friction at rest, and where it slips fast; and the speed, of the hair's, at which it is half way
+ * between. */
 static const double STATIC = 0.8;
 static const double DYNAMIC = 0.3;
 static const double HALF_WAY = 0.2;
@@ -22,8 +22,9 @@ static const double ROLL_SPRING = 1.8;
 static const double LEAST_PLACE = 0.05;
 static const double SLIP_FRAMES = 4.0;
 static const double MOST_PLACE = 0.2;
-static const double FARTHEST =
-    0.222; /* Half way between nodes of the fourth partial and the fifth */
+
+/* As far as it goes for that: half way between nodes of the fourth partial and the fifth. */
+static const double FARTHEST = 0.222;
 
 /* Force, of the most with which each round of the string still pulls the hair off, for no pressure
  * and for all, at a place; nearer to the wall the string asks for less of it. */
@@ -32,9 +33,9 @@ static const double HEAVIEST = 0.47;
 static const double USUAL_PLACE = 0.13;
 static const double NEARER = 0.25;
 
-/* The hair's other edge drags at the string as it slips there: how far it is away, and its damper,
- * of the string's impedance. */
-static const double WIDTH = -0.02;
+/* The hair's edge drags at the string as it slips there: how far it is away, towards the wall, and
+ * its damper, of the string's impedance. */
+static const double WIDTH = 0.02;
 static const double EDGE = 0.03;
 static const double FEEBLE = 0.125; /* The strength below which it drags less */
 
@@ -102,7 +103,7 @@ static void settle(Bow* bow, const Meeting* m) {
 }
 
 static Contact edge_at(const Chain* chain, double place) {
-  return contact_at(chain, place + (place < 0.5 ? WIDTH : -WIDTH));
+  return contact_at(chain, place + (place < 0.5 ? -WIDTH : WIDTH));
 }
 
 /* What is given to a string in its own time is the same at any pitch. */

@@ -60,7 +60,7 @@ typedef enum { BOW_STICKS, BOW_SLIPS_BACK, BOW_SLIPS_AHEAD } BowState;
 /** A bow at work; zero is none. */
 typedef struct {
   Line place;
-  Line strength;   /**< Of what is drawn, paced and pressed, see bow_swell() */
+  Line strength;   /**< Of what is drawn and pressed, see bow_swell() */
   Line drawn;      /**< b, per step, for a strength of 1 */
   Line pressed;    /**< F, of √k1 */
   double spring;   /**< s, of √k1 */
@@ -69,20 +69,21 @@ typedef struct {
   double before;   /**< eᵀu before the step */
   double beside;   /**< The same at the edge of the hair */
   double full;     /**< F of this stroke, once it is pressed */
-  double drag;     /**< What the edge of the hair did to the string in the last step */
+  double drag;     /**< d of the last step */
   double rolled;   /**< q */
   double hair;     /**< b of the last step */
   double slip;     /**< v of the last step */
   double friction; /**< f of the last step, in h²/m */
-  double work;     /**< What it gave to the string in the last step, f eᵀ(u' + u)/2 */
+  double
+      work; /**< What it gave to the string in the last step, f and d times their places' speeds */
   uint32_t n_lift; /**< Steps that it takes to lift it */
   BowState state;
   bool is_lifted;
   bool is_active;
 } Bow;
 
-/** The place where a string can be bowed that is nearest to a wanted one: off the walls, the middle
- * and the node of the fourth partial.  @param angle1  As of bow_start() */
+/** The place where a string can be bowed that is nearest to a wanted one: off the walls and the
+ * middle.  @param angle1  As of bow_start() */
 double bow_place(double wanted, double angle1);
 
 /**

@@ -37,7 +37,7 @@ static void read_tie(HarpBridgeEnd* end, const Tie* tie) {
   end->give = tie->weight * tie->pull.value;
   end->pull = tie->pull.value;
   end->spring = tie->spring.value;
-  end->rest = tie->rest.value;
+  end->carried = tie->carried.value;
 }
 
 static HarpBridgeEnd end_of(const Chain* chain, const Tie* tie) {
@@ -76,7 +76,7 @@ static double weight_of_last(const ChainPart* part, uint32_t t) {
 
 /*
   What loops read is what strings do by themselves, before the bridge pulls and moves the last mass;
-  and a string pulls at the bridge by how far that is from where it would rest with it.
+  and a string pulls at the bridge by how far that is from where the bridge carries it.
 */
 static void tell_taps(Harp* harp, const Reading* reading) {
   HarpBridge* const bridge = &harp->bridge;
@@ -85,14 +85,14 @@ static void tell_taps(Harp* harp, const Reading* reading) {
     for (uint32_t t = 0; t < reading->n_taps; ++t) {
       const bool is_at_bridge = reading->at[t].type == PICKUP_FORCE && reading->at[t].is_far;
       double pulled = 0.0;
-      double rest = 0.0;
+      double carried = 0.0;
       for (uint32_t i = batch->first; i < batch->first + batch->n; ++i) {
         const double weight = weight_of_last(&harp->parts[i], t);
         pulled += weight * bridge->ends[i].pull;
-        rest += is_at_bridge ? weight * bridge->ends[i].rest : 0.0;
+        carried += is_at_bridge ? weight * bridge->ends[i].carried : 0.0;
       }
       batch->pulled[t] = pulled;
-      batch->rest[t] = rest;
+      batch->carried[t] = carried;
     }
   }
 }
@@ -157,7 +157,7 @@ static void hear(Harp* harp, double was, uint32_t n_taps, uint32_t n) {
   for (uint32_t b = 0; b < bridge->n_batches; ++b) {
     const HarpBridgeBatch* const batch = &bridge->batches[b];
     for (uint32_t t = 0; t < n_taps; ++t) {
-      const double read = batch->pulled[t] * was - batch->rest[t] * bridge->bridge.y;
+      const double read = batch->pulled[t] * was - batch->carried[t] * bridge->bridge.y;
       harp->mix[batch->bus][t][n] += (float)read;
     }
   }

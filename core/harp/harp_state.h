@@ -43,19 +43,19 @@ typedef struct {
   uint32_t bus; /**< Where they are heard */
   uint32_t first;
   uint32_t n;
-  double pulled[CHAIN_MAX_TAPS]; /**< What their taps read of the last pull, for y = 1 */
-  double rest[CHAIN_MAX_TAPS];   /**< And do so though nothing pulls */
+  double pulled[CHAIN_MAX_TAPS];  /**< What their taps read of the last pull, for y = 1 */
+  double carried[CHAIN_MAX_TAPS]; /**< What they read of strings that lie where it carries them */
 } HarpBridgeBatch;
 
 /** Where the last mass of a string is, and what the tie makes of it. */
 typedef struct {
-  float* f;      /**< Its position, where it is in floats */
-  double* d;     /**< Where it is in doubles */
-  size_t to_u;   /**< From there to its velocity */
-  double give;   /**< r p */
-  double pull;   /**< p */
-  double spring; /**< s */
-  double rest;   /**< p C */
+  float* f;       /**< Its position, where it is in floats */
+  double* d;      /**< Where it is in doubles */
+  size_t to_u;    /**< From there to its velocity */
+  double give;    /**< r p */
+  double pull;    /**< p */
+  double spring;  /**< s */
+  double carried; /**< p C */
 } HarpBridgeEnd;
 
 /** Zero moves nothing. */

@@ -291,7 +291,7 @@ static double pull_at_bridge(const Harp* harp) {
       const BridgeTie tie = bridge_tie(chain->now, chain->n_masses, voice->tie.hold);
       const ChainTap tap = pickup_tap_of_type(PICKUP_FORCE, chain->n_masses, 0.0, 0.0, true);
       const double x = (double)chain_position(chain, chain->n_masses - 1);
-      sum += (double)tap.weight[0] * (x - tie.rest * harp->bridge.bridge.y);
+      sum += (double)tap.weight[0] * (x - tie.carried * harp->bridge.bridge.y);
     }
   }
   return sum;
