@@ -30,27 +30,37 @@ is_gone() {
     esac
 }
 
-# finish PROCESS...: what we have started ends, by force if need be.
+# finish PROCESS...: what we have started ends, by force if need be; false where it was.
 finish() {
     kill "$@" 2>/dev/null
+    forced=0
     for process in "$@"; do
         for _ in $(seq 100); do
             is_gone "$process" && break
             sleep 0.1
         done
+        is_gone "$process" || forced=1
         kill -KILL "$process" 2>/dev/null
         wait "$process" 2>/dev/null
     done
+    return $forced
 }
 
-stop_host() {
-    test -z "$host" || finish "$host" "$open"
+end_host() {
+    ended=0
+    test -z "$host" || finish "$host" "$open" || ended=1
     host=
     open=
+    return $ended
+}
+
+# A host that cannot leave JACK has freed no plugin, and nothing is told of what it did.
+stop_host() {
+    end_host || give_up_jack
 }
 
 stop() {
-    stop_host
+    end_host
     test -z "$server" || finish "$server"
     server=
     rm -f "/dev/shm/jack_${JACK_DEFAULT_SERVER}_"* /dev/shm/jack_sem.*_"${JACK_DEFAULT_SERVER}_"*
