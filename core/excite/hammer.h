@@ -63,7 +63,7 @@ typedef struct {
    Throw a hammer at a string, from just before it.
 
    Its speed is found in a rehearsal (core/excite/rehearsal.h) on a string at rest, such that the
-   fundamental is that of pluck_add() with the same amplitude: within 3 dB for masses from 0.1
+   fundamental is that of pluck_pull() with the same amplitude: within 3 dB for masses from 0.1
    to 0.6 at places up to 0.3 from a wall.  In the middle both walls throw the wave back at once,
    and it may take a light, hard hammer's blow back again; heavier ones, which strike several times,
    and lighter ones may be a few dB softer.

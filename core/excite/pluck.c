@@ -4,76 +4,100 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdint.h>
+
+/* A force or a shape; masses count from 1, and what is at 0 and at N + 1 is a wall. */
+typedef struct {
+  uint32_t n;
+  double at[CHAIN_MAX_MASSES + 2];
+} Shape;
 
 static double raised_cosine(double distance) {
   return fabs(distance) < 1.0 ? 0.5 + 0.5 * cos(PI * distance) : 0.0;
 }
 
-/* What the finger pushes each mass by; masses count from 1, and past a wall all goes on upside
- * down.
- */
-typedef struct {
-  int64_t first;
-  int64_t last;
-  int64_t n_masses;
-  double push[CHAIN_MAX_MASSES + 1];
-} Pushes;
-
-static double push_at(const Pushes* pushes, int64_t i) {
-  const int64_t n = pushes->n_masses;
-  const int64_t inside = i < 1 ? -i : i > n ? 2 * (n + 1) - i : i;
-  const bool is_pushed = inside >= pushes->first && inside <= pushes->last;
-  return is_pushed ? (i == inside ? 1.0 : -1.0) * pushes->push[inside] : 0.0;
-}
-
-/* K p at mass `i`, K = k1 L + k2 L² + k3 L³. */
-static double pull_at(const Pushes* pushes, StringCoefs c, int64_t i) {
-  const double p = push_at(pushes, i);
-  const double p1 = push_at(pushes, i - 1) + push_at(pushes, i + 1);
-  const double p2 = push_at(pushes, i - 2) + push_at(pushes, i + 2);
-  const double p3 = push_at(pushes, i - 3) + push_at(pushes, i + 3);
-  return c.k1 * (2.0 * p - p1) + c.k2 * (6.0 * p - 4.0 * p1 + p2) +
-         c.k3 * (20.0 * p - 15.0 * p1 + 6.0 * p2 - p3);
-}
-
-/* Σ p (u + p/2) − ½ xᵀK p: what they add to the energy. */
-static double energy_of(const Pushes* pushes, const Chain* chain) {
-  const int64_t first = pushes->first > 3 ? pushes->first - 3 : 1;
-  const int64_t last = pushes->last + 3 < pushes->n_masses ? pushes->last + 3 : pushes->n_masses;
-  double energy = 0.0;
-  for (int64_t i = first; i <= last; ++i) {
-    const double p = push_at(pushes, i);
-    const double x = (double)chain_position(chain, (uint32_t)i - 1);
-    const double u = (double)chain_velocity(chain, (uint32_t)i - 1);
-    energy += p * (u + 0.5 * p) - 0.5 * x * pull_at(pushes, chain->now, i);
-  }
-  return energy;
-}
-
-double pluck_add(Chain* chain, Pluck pluck, double angle1) {
-  const double length = chain->n_masses + 1.0;
-  const double width = fmax(
-      PLUCK_NARROWEST, length * PLUCK_SOFTEST * pow(PLUCK_HARDEST / PLUCK_SOFTEST, pluck.hardness));
-  const double centre = fmin(fmax(pluck.place * length, 1.0), (double)chain->n_masses);
-  Pushes pushes;
-  pushes.first = (int64_t)fmax(1.0, ceil(centre - width));
-  pushes.last = (int64_t)fmin((double)chain->n_masses, floor(centre + width));
-  pushes.n_masses = chain->n_masses;
-  assert(pushes.first <= pushes.last);
+/* What the finger pulls each mass with, of 1 in all. */
+static void press(Shape* force, const Pluck* pluck) {
+  const double length = force->n + 1.0;
+  const double width =
+      fmax(PLUCK_NARROWEST,
+           length * PLUCK_SOFTEST * pow(PLUCK_HARDEST / PLUCK_SOFTEST, pluck->hardness));
+  const double centre = fmin(fmax(pluck->place * length, 1.0), (double)force->n);
   double sum = 0.0;
-  for (int64_t i = pushes.first; i <= pushes.last; ++i) {
-    pushes.push[i] = raised_cosine(((double)i - centre) / width);
-    sum += pushes.push[i];
+  for (uint32_t i = 1; i <= force->n; ++i) {
+    force->at[i] = raised_cosine(((double)i - centre) / width);
+    sum += force->at[i];
   }
-  const double momentum = pluck.amplitude * length * (2.0 / PI) * sin(angle1);
-  for (int64_t i = pushes.first; i <= pushes.last; ++i) {
-    pushes.push[i] *= momentum / sum;
+  assert(sum > 0.0);
+  for (uint32_t i = 1; i <= force->n; ++i) {
+    force->at[i] /= sum;
   }
-  const double energy = energy_of(&pushes, chain);
-  for (int64_t i = pushes.first; i <= pushes.last; ++i) {
-    chain_push(chain, (uint32_t)i - 1, (float)pushes.push[i]);
+}
+
+/* Solve L x = f: its slope falls by f from mass to mass, and both walls are at 0. */
+static void hang(Shape* shape) {
+  const double length = shape->n + 1.0;
+  double slope = 0.0;
+  for (uint32_t i = 1; i <= shape->n; ++i) {
+    slope += (1.0 - i / length) * shape->at[i];
   }
-  return energy;
+  shape->at[0] = 0.0;
+  for (uint32_t i = 1; i <= shape->n; ++i) {
+    const double pulled = shape->at[i];
+    shape->at[i] = shape->at[i - 1] + slope;
+    slope -= pulled;
+  }
+}
+
+/*
+  Solve (k1 + k2 L + k3 L²) x = f in place, which is positive definite wherever a string is: its
+  five diagonals are factored into a lower triangle of two below ones, those into a diagonal, and
+  back.
+*/
+static void stiffen(Shape* shape, StringCoefs c) {
+  const uint32_t n = shape->n;
+  const double one = -(c.k2 + 4.0 * c.k3);
+  double diagonal[CHAIN_MAX_MASSES + 2];
+  double below[CHAIN_MAX_MASSES + 2];
+  double twice[CHAIN_MAX_MASSES + 2];
+  if (c.k2 == 0.0 && c.k3 == 0.0) {
+    for (uint32_t i = 1; i <= n; ++i) {
+      shape->at[i] /= c.k1;
+    }
+    return;
+  }
+  for (uint32_t i = 1; i <= n; ++i) {
+    const double end = (i == 1 ? c.k3 : 0.0) + (i == n ? c.k3 : 0.0);
+    const double d1 = i > 1 ? diagonal[i - 1] : 0.0;
+    const double d2 = i > 2 ? diagonal[i - 2] : 0.0;
+    twice[i] = i > 2 ? c.k3 / d2 : 0.0;
+    below[i] = i > 1 ? (one - twice[i] * d2 * (i > 2 ? below[i - 1] : 0.0)) / d1 : 0.0;
+    diagonal[i] =
+        c.k1 + 2.0 * c.k2 + 6.0 * c.k3 - end - below[i] * below[i] * d1 - twice[i] * twice[i] * d2;
+    shape->at[i] -=
+        (i > 1 ? below[i] * shape->at[i - 1] : 0.0) + (i > 2 ? twice[i] * shape->at[i - 2] : 0.0);
+  }
+  for (uint32_t i = n; i >= 1; --i) {
+    shape->at[i] = shape->at[i] / diagonal[i] -
+                   (i + 1 <= n ? below[i + 1] * shape->at[i + 1] : 0.0) -
+                   (i + 2 <= n ? twice[i + 2] * shape->at[i + 2] : 0.0);
+  }
+}
+
+double pluck_pull(Chain* chain, Pluck pluck) {
+  const double a1 = tuning_mode(chain->now, chain->n_masses, 1).a;
+  const double force = pluck.amplitude * (2.0 / PI) * (chain->n_masses + 1.0) * a1;
+  const double before = chain_energy(chain);
+  Shape push = {.n = chain->n_masses};
+  Shape aside;
+  press(&push, &pluck);
+  aside = push;
+  hang(&aside);
+  stiffen(&aside, chain->now);
+  for (uint32_t i = 1; i <= chain->n_masses; ++i) {
+    const double x = (double)chain_position(chain, i - 1) + force * aside.at[i];
+    const double u = (double)chain_velocity(chain, i - 1) + 0.5 * force * push.at[i];
+    chain_place(chain, i - 1, (float)x, (float)u);
+  }
+  return chain_energy(chain) - before;
 }

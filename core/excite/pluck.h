@@ -1,5 +1,5 @@
 /**
-   What sets a string in motion.
+   What sets a string in motion by pulling it aside and letting it go.
 
    Thread: one at a time; real-time safe.
 */
@@ -15,32 +15,35 @@
 #define PLUCK_BRIGHTER 0.4
 
 /** Half the width of the softest finger and of the hardest pick, as fractions of the length, and
- * the least [masses]: a narrower raised cosine would excite the mode that masses cannot carry. */
+ * the least [masses]: a narrower raised cosine would pull at the mode that masses cannot carry. */
 #define PLUCK_SOFTEST 0.3
 #define PLUCK_HARDEST 0.005
 #define PLUCK_NARROWEST 2.0
 
 /** A pluck; where, with what, and how far. */
 typedef struct {
-  double place;    /**< Fraction of the length, 0 to 1; kept off the walls by one mass */
-  double hardness; /**< 0: a wide, soft finger; 1: a narrow, hard pick */
-  double
-      amplitude; /**< Largest displacement of the ideal string that it gives, in units of output */
+  double place;     /**< Fraction of the length, 0 to 1; kept off the walls by one mass */
+  double hardness;  /**< 0: a wide, soft finger; 1: a narrow, hard pick */
+  double amplitude; /**< The fundamental is to be 4/π of it in the middle, in units of output; less
+                       than 0: pulled the other way */
 } Pluck;
 
 /**
-   Pluck a chain: momentum is added to whatever motion it has.
+   Pull a string aside and let it go: what it has is added to, and what is added begins at rest.
 
-   A string pulled aside to a point and let go moves, at a pickup of velocity, as a string pushed at
-   that point does at a pickup of displacement.  So the pluck is given as a push, spread over the
-   finger's width by a raised cosine that is never narrower than the masses can carry, and no
-   position jumps: there is no step in the output that is not the string's own.  Its sum makes the
-   fundamental's amplitude 4/π · amplitude · sin(π place) in its middle, as for the ideal string, at
-   any number of masses and any rate.
+   A finger pulls with a force f that is spread over its width by a raised cosine, never narrower
+   than the masses can carry, and the string gives way until its own springs hold that, K x = f.  So
+   partial k of a narrow finger's is sin(kπp)/k², and a wide one's falls faster.  At rest means that
+   the centred velocity u − ½ K x is nought, so that x is the amplitude of each partial.
 
-   @param angle1  The fundamental's digital angular frequency 2πF/rate [rad per sample], 0 to π
+   The force is such that the fundamental's amplitude is 4/π · amplitude · sin(π place), at any
+   number of masses and any rate; but for what the finger's width takes from it, at most 0.5 dB
+   where no wall is near.  The string is then 2π place (1 − place) times the amplitude aside.
+
+   The positions jump: who reads the string sees to it that nothing steps, see core/voice/onset.h.
+
    @return What it adds to the energy of the chain, see chain_energy()
 */
-double pluck_add(Chain* chain, Pluck pluck, double angle1);
+double pluck_pull(Chain* chain, Pluck pluck);
 
 #endif

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* The finger of pluck_add() is taken to be so much wider than it is: a mode of just its width has a
- * pole at both edges, and the narrowest is as wide as one of an odd number's. */
+/* The finger of pluck_pull() is taken to be so much wider than it is: a mode of just its width has
+ * a pole at both edges, and the narrowest is as wide as one of an odd number's. */
 static const double WIDER = 1.0005;
 
 /* Where a node of a mode begins to be one, s², and what a mode loses in a radian of the fundamental
@@ -65,16 +65,17 @@ Spectrum spectrum_of_pluck(uint32_t n_masses, Pluck pluck, double angle1) {
   const double from = fmax(-1.0, -centre / width);
   const double to = fmin(1.0, (1.0 - centre) / width);
   const double weight = to - from + (sin(PI * to) - sin(PI * from)) / PI;
+  const double a1 = 2.0 - 2.0 * cos(angle1);
   Spectrum s = {
       .exciter = EXCITER_PLUCK,
       .angles = {PI * (centre + width * from), PI * (centre + width * to)},
-      .push = 4.0 / PI * sin(angle1) / weight,
+      .push = 4.0 / PI * a1 / weight,
       .width = PI * width,
       .edges = {cos(PI * from), cos(PI * to)},
       .angle1 = angle1,
   };
   if (n_masses <= SPECTRUM_FEW) {
-    s.push = 4.0 / PI * sin(angle1);
+    s.push = 4.0 / PI * a1;
     s.n_shares = sum_few(n_masses, centre, width / WIDER, s.shares);
   }
   return s;
@@ -93,6 +94,7 @@ Spectrum spectrum_of_strike(uint32_t n_masses, Strike strike, double angle1) {
   Spectrum s = spectrum_of_pluck(n_masses, pluck, angle1);
   const double cosines[] = {cos(s.angles[0]), cos(s.angles[1])};
   s.exciter = EXCITER_STRIKE;
+  s.push *= sin(angle1) / (2.0 - 2.0 * cos(angle1));
   s.push *= s.n_shares > 0 ? sqrt(s.shares[0]) : transform(&s, 1.0, cosines);
   s.n_shares = rehearsal_spectrum(n_masses, strike, angle1, s.shares);
   if (s.n_shares > REHEARSED) {
@@ -125,11 +127,12 @@ double spectrum_square(const Spectrum* s, uint32_t k, Pole mode, const double co
   const double sine2 = mode.a * (1.0 - 0.25 * mode.a);
   switch (s->exciter) {
   case EXCITER_PLUCK: {
+    const double pull = s->push / mode.a;
     if (k <= s->n_shares) {
-      return s->push * s->push * s->shares[k - 1] / sine2;
+      return pull * pull * s->shares[k - 1];
     }
-    const double push = s->push * transform(s, k, cosines);
-    return push * push / sine2;
+    const double share = transform(s, k, cosines);
+    return pull * pull * share * share;
   }
   case EXCITER_STRIKE: {
     const double share =

@@ -3,9 +3,10 @@
 
    A mode k swings as X_k sin(kπx) sin(ω_k n), and X_k² is what this room tells:
 
-   - a pluck pushes the string over a finger's width (core/excite/pluck.h), the transform of whose
-   raised cosine, cut off at the walls as it may be, has a closed form in the cosines of its two
-   edges; of few masses, those under it are summed one by one;
+   - a pluck pulls the string aside with a force over a finger's width (core/excite/pluck.h), which
+   gives way to each mode by 1/a_k; the transform of its raised cosine, cut off at the walls as it
+   may be, has a closed form in the cosines of its two edges; of few masses, those under it are
+   summed one by one;
    - a strike's is the spectrum of a hammer's rehearsal (core/excite/rehearsal.h), which falls on as
    it last did where that has no more masses;
    - under a bow it moves as Helmholtz's does, from frame to frame, X_k sin ω_k sin(ω_k/2) = 8/π² A
@@ -32,7 +33,8 @@ enum { SPECTRUM_FEW = 48 };
 typedef struct {
   Exciter exciter;
   double angles[2]; /**< Mode k is told the cosines of k times these, see spectrum_square() */
-  double push;      /**< What a pluck at one point would give to X_k sin ω_k; or X_1 of a bow */
+  double push;      /**< What a pluck at one point would pull mode k with, X_k a_k; what a strike
+                       pushes the first with, X_1 sin ω_1; or X_1 of a bow */
   double width;     /**< Half of the finger's, in radians of the fundamental's shape */
   double edges[2]; /**< Cosine of the finger's own phase at each edge, −1 where no wall cuts it */
   double angle1;   /**< The fundamental's digital angular frequency [rad per sample] */

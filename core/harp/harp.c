@@ -46,6 +46,7 @@ static void set_touch(Harp* harp, uint32_t channel, double* what, double value) 
 
 static void set_level(Harp* harp, uint32_t n_frames) {
   line_to(&harp->level, harp->patch.level, n_frames);
+  line_to(&harp->stereo.spread, harp->patch.spread, n_frames);
 }
 
 /* A scale may give any key any pitch, so all strings have the same memory. */
@@ -71,8 +72,9 @@ Harp* harp_new(double rate_hz) {
   }
   harp->rate_hz = rate_hz;
   harp->n_gesture = voice_gesture_frames(rate_hz);
+  harp->onset = onset_pole(rate_hz);
   harp->memory = aligned_new(CHAIN_ALIGNMENT, HARP_STRINGS * chain_size(CHAIN_MAX_MASSES));
-  if (!harp->memory) {
+  if (!harp->memory || !harp_stereo_new(&harp->stereo, rate_hz)) {
     harp_free(harp);
     return NULL;
   }
@@ -85,6 +87,7 @@ Harp* harp_new(double rate_hz) {
 
 void harp_free(Harp* harp) {
   if (harp) {
+    harp_stereo_free(&harp->stereo);
     aligned_free(harp->memory);
     free(harp);
   }
@@ -104,8 +107,9 @@ void harp_reset(Harp* harp) {
   harp_bridge_init(&harp->bridge, harp->rate_hz);
   harp->reading.n_taps = 0;
   harp->is_bowed = false;
-  harp->dc[0] = 0.0;
-  harp->dc[1] = 0.0;
+  harp->dc = 0.0;
+  memset(harp->onsets, 0, sizeof harp->onsets);
+  harp_stereo_reset(&harp->stereo);
 }
 
 /* Whether what rings has the same coefficients under both. */
@@ -141,7 +145,7 @@ void harp_set_scale(Harp* harp, uint32_t channel, const double semitones[HARP_KE
 
 /* Nothing sounds, and nothing is left of what a bow pulled aside. */
 static bool is_still(const Harp* harp) {
-  return harp->dc[0] == 0.0 && harp->dc[1] == 0.0 && harp_report(harp).n_strings == 0;
+  return harp->dc == 0.0 && harp_report(harp).n_strings == 0;
 }
 
 /* What a channel makes of a velocity. */
@@ -158,11 +162,23 @@ static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t vel
   };
 }
 
+/* The finger that plucks a string stops it first. */
+static void stop(Harp* harp, HarpString* string) {
+  if (string->voice.is_awake) {
+    harp_mixer_hide_end(harp, string);
+    voice_sleep(&string->voice);
+  }
+}
+
 void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity) {
   assert(channel < HARP_CHANNELS && key < HARP_KEYS);
   HarpString* const string = harp_channels_take(harp, channel, key);
   string->is_caught = string->is_caught && string->channel == channel;
-  const double louder = harp_channels_hand(harp, string, channel);
+  const bool is_plucked = harp->patch.exciter == EXCITER_PLUCK;
+  if (is_plucked) {
+    stop(harp, string);
+  }
+  const double louder = harp_channels_hand(harp, string, channel, true);
   string->holders |= 1u << channel;
   string->is_let_go = false;
   string->leaned_on = 0.0;
@@ -172,6 +188,9 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   Pluck pluck = pluck_of(harp, &harp->channels[channel], velocity);
   pluck.amplitude *= louder;
   harp_string_play(string, pluck, harp->n_gesture);
+  if (is_plucked && string->voice.is_awake) {
+    harp_mixer_hide_start(harp, string);
+  }
 }
 
 /* Its key is up: the damper falls, as far as it may. */
@@ -191,7 +210,7 @@ static void hand_on(Harp* harp, HarpString* string) {
   while (!harp_channels_holds(string, channel)) {
     ++channel;
   }
-  (void)harp_channels_hand(harp, string, channel);
+  (void)harp_channels_hand(harp, string, channel, false);
   string->touch = harp->channels[channel].touch;
   tune(harp, string);
   retune(harp, string, harp->n_gesture);

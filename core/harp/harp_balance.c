@@ -33,7 +33,7 @@ static const double GOLDEN = 0.61803398874989485;
 
 /* What turns by an angle from mode to mode: the string's shape, the exciter's two cosines, and the
  * sines at the masses that are read. */
-enum { STRING, EXCITED, TAPPED = 3, MOST_TURNS = TAPPED + 4 };
+enum { STRING, EXCITED, TAPPED = 3, MOST_TURNS = TAPPED + 2 };
 
 typedef struct {
   double angle[MOST_TURNS];
@@ -46,10 +46,9 @@ typedef struct {
   StringCoefs coefs;
   Spectrum spectrum;
   PickupType pickup_type;
-  uint32_t n_sides;
-  double weights[4];
+  double weights[2];
   double rate_hz;
-  double both; /* 2 where one pickup is both sides */
+  double both; /* What both sides have of the square of what is read */
 } Heard;
 
 /* Sums over the modes, as they begin and over the whole time. */
@@ -88,13 +87,8 @@ static double square_of_angle(double a) {
 }
 
 static double square_read(const Heard* heard, const double* sines, double a) {
-  double square = 0.0;
-  for (uint32_t side = 0; side < heard->n_sides; ++side) {
-    const double* const w = &heard->weights[2 * side];
-    const double read = w[0] * sines[2 * side] + w[1] * sines[2 * side + 1];
-    square += read * read;
-  }
-  return heard->both * square * (heard->pickup_type == PICKUP_VELOCITY ? a : 1.0);
+  const double read = heard->weights[0] * sines[0] + heard->weights[1] * sines[1];
+  return heard->both * read * read * (heard->pickup_type == PICKUP_VELOCITY ? a : 1.0);
 }
 
 /* Add `n` modes that are all as `k` is. */
@@ -171,24 +165,17 @@ static Spectrum spectrum_for(const HarpPatch* patch, const HarpBalance* string, 
   return spectrum_of_pluck(string->n_masses, pluck, angle1);
 }
 
-/* Where the harp's pickups are, or will be. */
+/* Where the harp's pickup is, or will be.  A spread makes each side louder, by half of what it
+ * makes the loudest partials. */
 static void
 set_taps(Heard* heard, Turns* turns, const HarpPatch* patch, const HarpBalance* string) {
   const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
-  Pickup places[PICKUPS];
-  harp_patch_pickups(patch, places);
-  const bool is_one = pickups_are_same(&places[0], &places[1]);
-  heard->n_sides = is_one ? 1 : PICKUPS;
-  heard->both = is_one ? 2.0 : 1.0;
-  for (uint32_t side = 0; side < heard->n_sides; ++side) {
-    const Pickup* const pickup = &places[side];
-    const ChainTap tap =
-        pickup_tap_of_type(pickup->type, string->n_masses, pickup->place,
-                           2.0 * PI * f0_hz / string->target.rate_hz, pickup->is_far);
-    for (uint32_t i = 2 * side; i < 2 * side + 2; ++i) {
-      turns->angle[TAPPED + i] = turns->angle[STRING] * (tap.mass[i % 2] + 1.0);
-      heard->weights[i] = (double)tap.weight[i % 2];
-    }
+  const ChainTap tap = pickup_tap_of_type(patch->pickup_type, string->n_masses, patch->pickup,
+                                          2.0 * PI * f0_hz / string->target.rate_hz);
+  heard->both = 2.0 + patch->spread * patch->spread;
+  for (int i = 0; i < 2; ++i) {
+    turns->angle[TAPPED + i] = turns->angle[STRING] * (tap.mass[i] + 1.0);
+    heard->weights[i] = (double)tap.weight[i];
   }
 }
 

@@ -37,7 +37,6 @@ static void read_tie(HarpBridgeEnd* end, const Tie* tie) {
   end->give = tie->weight * tie->pull.value;
   end->pull = tie->pull.value;
   end->spring = tie->spring.value;
-  end->carried = tie->carried.value;
 }
 
 static HarpBridgeEnd end_of(const Chain* chain, const Tie* tie) {
@@ -74,25 +73,18 @@ static double weight_of_last(const ChainPart* part, uint32_t t) {
          (tap->mass[1] == last ? (double)tap->weight[1] : 0.0);
 }
 
-/*
-  What loops read is what strings do by themselves, before the bridge pulls and moves the last mass;
-  and a string pulls at the bridge by how far that is from where the bridge carries it.
-*/
+/* What loops read is what strings do by themselves, before the bridge pulls and moves the last
+ * mass. */
 static void tell_taps(Harp* harp, const Reading* reading) {
   HarpBridge* const bridge = &harp->bridge;
   for (uint32_t b = 0; b < bridge->n_batches; ++b) {
     HarpBridgeBatch* const batch = &bridge->batches[b];
     for (uint32_t t = 0; t < reading->n_taps; ++t) {
-      const bool is_at_bridge = reading->at[t].type == PICKUP_FORCE && reading->at[t].is_far;
       double pulled = 0.0;
-      double carried = 0.0;
       for (uint32_t i = batch->first; i < batch->first + batch->n; ++i) {
-        const double weight = weight_of_last(&harp->parts[i], t);
-        pulled += weight * bridge->ends[i].pull;
-        carried += is_at_bridge ? weight * bridge->ends[i].carried : 0.0;
+        pulled += weight_of_last(&harp->parts[i], t) * bridge->ends[i].pull;
       }
       batch->pulled[t] = pulled;
-      batch->carried[t] = carried;
     }
   }
 }
@@ -157,8 +149,7 @@ static void hear(Harp* harp, double was, uint32_t n_taps, uint32_t n) {
   for (uint32_t b = 0; b < bridge->n_batches; ++b) {
     const HarpBridgeBatch* const batch = &bridge->batches[b];
     for (uint32_t t = 0; t < n_taps; ++t) {
-      const double read = batch->pulled[t] * was - batch->carried[t] * bridge->bridge.y;
-      harp->mix[batch->bus][t][n] += (float)read;
+      harp->mix[batch->bus][t][n] += (float)(batch->pulled[t] * was);
     }
   }
 }

@@ -71,14 +71,14 @@ uint32_t harp_channels_heard(const HarpString* string) {
   return string->lender ? string->lender - 1 : string->channel;
 }
 
-double harp_channels_hand(const Harp* harp, HarpString* string, uint32_t channel) {
+double harp_channels_hand(const Harp* harp, HarpString* string, uint32_t channel, bool is_played) {
   const uint32_t heard = harp_channels_heard(string);
   const double old = gain_of(harp, heard);
   const double gain = gain_of(harp, channel);
-  const bool would_step = string->voice.is_awake && old > 0.0 && old != gain;
+  const bool would_step = string->voice.is_awake && old != gain && (old > 0.0 || !is_played);
   string->lender = would_step ? 1 + heard : 0;
   string->channel = channel;
-  return would_step ? fmin(gain / old, MOST_LOUDER) : 1.0;
+  return would_step && is_played ? fmin(gain / old, MOST_LOUDER) : 1.0;
 }
 
 uint32_t harp_channels_pedal(const Harp* harp) {

@@ -28,10 +28,11 @@ uint32_t harp_channels_heard(const HarpString* string);
    Let a channel have a string, which may ring: what is heard of it makes no step, so that it is
    heard with the gain that it was, if the channel's is another, until it has died away.
 
+   @param is_played  By a note, which is to be heard though nothing was of what rings
    @return What a note is to be multiplied by, to be as loud as with the channel's own gain; 4 at
    most
 */
-double harp_channels_hand(const Harp* harp, HarpString* string, uint32_t channel);
+double harp_channels_hand(const Harp* harp, HarpString* string, uint32_t channel, bool is_played);
 
 /** The channel whose pedal lifts dampers the most. */
 uint32_t harp_channels_pedal(const Harp* harp);

@@ -16,18 +16,21 @@ static const double DC_HZ = 5.0;
 static const double SILENT_DC_HZ = 100.0;
 static const double LEAST_DC = 1e-7;
 
+/* There is one. */
+static void pickups_of(const Harp* harp, Pickup places[PICKUPS]) {
+  places[0] = (Pickup){harp->patch.pickup_type, harp->patch.pickup};
+  places[1] = places[0];
+}
+
 void harp_mixer_place_pickups(Harp* harp) {
   Pickup places[PICKUPS];
-  harp_patch_pickups(&harp->patch, places);
+  pickups_of(harp, places);
   pickups_set(&harp->pickups, places);
 }
 
-/* What is to be read until the pickups change: one, where left and right are one. */
+/* What is to be read until the pickup changes. */
 static Reading reading_of(const Pickups* pickups) {
-  const bool is_fading = pickups_stretch(pickups) < UINT32_MAX;
-  const bool is_stereo = !pickups_are_same(&pickups->heard[0], &pickups->heard[1]) ||
-                         (is_fading && !pickups_are_same(&pickups->fading[0], &pickups->fading[1]));
-  return pickups_reading(pickups, (const bool[PICKUPS]){true, is_stereo});
+  return pickups_reading(pickups, (const bool[PICKUPS]){true, false});
 }
 
 /* Velocities are weighed as if a key were in its usual tune: weights must not move while it rings.
@@ -124,12 +127,24 @@ static bool are_same(const Reading* a, const Reading* b) {
   return are_same;
 }
 
+/* What is left behind goes on hiding what it hid; so does what comes, if it reads the same thing.
+ */
+static void take_onsets(Harp* harp, const Reading* reading) {
+  const bool is_alike = reading->at[0].type == harp->onset_type;
+  for (uint32_t bus = 0; bus < HARP_BUSES; ++bus) {
+    Onset* const onsets = harp->onsets[bus];
+    onsets[1] = reading->n_taps > 1 ? onsets[0] : (Onset){0};
+    onsets[0] = is_alike ? onsets[0] : (Onset){0};
+  }
+}
+
 /* Who begins to read velocities must know where the strings were. */
 static void take_reading(Harp* harp, const Reading* reading, uint32_t n_parts) {
   const uint32_t apart = channels_apart(harp);
   if (apart == harp->apart && are_same(reading, &harp->reading)) {
     return;
   }
+  take_onsets(harp, reading);
   harp->reading = *reading;
   harp->apart = apart;
   for (uint32_t bus = 0; bus < HARP_BUSES; ++bus) {
@@ -147,22 +162,13 @@ static void outputs_of(Harp* harp, uint32_t bus, uint32_t from, uint32_t n_taps,
   }
 }
 
-/* Fade from the old pickups, and set the level. */
-static void
-mix_down(Harp* harp, const Reading* reading, uint32_t n_frames, float* left, float* right) {
-  float* const sides[2] = {left, right};
+/* Fade from the old pickup, and set the level. */
+static void mix_down(Harp* harp, const Reading* reading, uint32_t n_frames, float* read) {
   float* mix[CHAIN_MAX_TAPS];
   outputs_of(harp, 0, 0, reading->n_taps, mix);
   pickups_cross(&harp->pickups, reading, n_frames, mix);
   for (uint32_t n = 0; n < n_frames; ++n) {
-    const float level = (float)line_next(&harp->level);
-    for (uint32_t s = 0; s < reading->n_heard; ++s) {
-      /* There are two at most.  NOLINTNEXTLINE(clang-analyzer-core.NullDereference) */
-      sides[s][n] = level * mix[s][n];
-    }
-  }
-  if (reading->n_heard == 1) {
-    memcpy(right, left, n_frames * sizeof(float));
+    read[n] = (float)line_next(&harp->level) * mix[0][n];
   }
 }
 
@@ -171,24 +177,21 @@ mix_down(Harp* harp, const Reading* reading, uint32_t n_frames, float* left, flo
   first note that is bowed on, what stands still is taken out of the sum; before that it is not
   touched.  Exact zeros mean that nothing sounds: then what is left of it is let go.
 */
-static void block_dc(Harp* harp, uint32_t n_frames, float* left, float* right) {
+static void block_dc(Harp* harp, uint32_t n_frames, float* read) {
   if (!harp->is_bowed) {
     return;
   }
   const double share = -expm1(-2.0 * PI * DC_HZ / harp->rate_hz);
   const double share_in_silence = -expm1(-2.0 * PI * SILENT_DC_HZ / harp->rate_hz);
-  float* const sides[2] = {left, right};
-  for (int s = 0; s < 2; ++s) {
-    double dc = harp->dc[s];
-    for (uint32_t n = 0; n < n_frames; ++n) {
-      const double x = (double)sides[s][n];
-      const bool is_silent = x == 0.0;
-      dc += (is_silent ? share_in_silence : share) * (x - dc);
-      dc = is_silent && fabs(dc) < LEAST_DC ? 0.0 : dc;
-      sides[s][n] = (float)(x - dc);
-    }
-    harp->dc[s] = dc;
+  double dc = harp->dc;
+  for (uint32_t n = 0; n < n_frames; ++n) {
+    const double x = (double)read[n];
+    const bool is_silent = x == 0.0;
+    dc += (is_silent ? share_in_silence : share) * (x - dc);
+    dc = is_silent && fabs(dc) < LEAST_DC ? 0.0 : dc;
+    read[n] = (float)(x - dc);
   }
+  harp->dc = dc;
 }
 
 /* Frames that can be run in one go: pickups and gains may not change within them but by their own
@@ -244,7 +247,7 @@ static void run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_
 }
 
 /* The buses that are heard, a bit each: the first, those of strings, and those whose last sample is
- * still to be taken away. */
+ * still to be taken away, or that hide something. */
 static uint32_t heard_buses(const Harp* harp, uint32_t n_parts, uint32_t n_taps) {
   uint32_t heard = 1;
   for (uint32_t i = 0; i < n_parts; ++i) {
@@ -252,7 +255,8 @@ static uint32_t heard_buses(const Harp* harp, uint32_t n_parts, uint32_t n_taps)
   }
   for (uint32_t bus = 1; bus < HARP_BUSES; ++bus) {
     for (uint32_t t = 0; t < n_taps; ++t) {
-      heard |= (uint32_t)(harp->before[bus][t] != 0.0f) << bus;
+      const bool is_left = harp->before[bus][t] != 0.0f || !onset_is_over(&harp->onsets[bus][t]);
+      heard |= (uint32_t)is_left << bus;
     }
   }
   return heard;
@@ -266,17 +270,19 @@ static void clear_buses(Harp* harp, uint32_t heard, uint32_t n_frames, uint32_t 
   }
 }
 
-static void differentiate(Harp* harp, uint32_t bus, const Reading* reading, uint32_t n_frames) {
+/* Differentiate what is a velocity, and hide that strings were pulled aside. */
+static void finish_bus(Harp* harp, uint32_t bus, const Reading* reading, uint32_t n_frames) {
   for (uint32_t t = 0; t < reading->n_taps; ++t) {
     if (reading->at[t].type == PICKUP_VELOCITY) {
       pickup_differentiate(harp->mix[bus][t], n_frames, &harp->before[bus][t]);
     }
+    onset_run(&harp->onsets[bus][t], harp->onset, n_frames, harp->mix[bus][t]);
   }
 }
 
 static void add_bus(Harp* harp, uint32_t channel, const Reading* reading, uint32_t n_frames) {
   Line* const gain = &harp->channels[channel].gain;
-  differentiate(harp, 1 + channel, reading, n_frames);
+  finish_bus(harp, 1 + channel, reading, n_frames);
   for (uint32_t n = 0; n < n_frames; ++n) {
     const float now = (float)line_next(gain);
     for (uint32_t t = 0; t < reading->n_taps; ++t) {
@@ -288,7 +294,7 @@ static void add_bus(Harp* harp, uint32_t channel, const Reading* reading, uint32
 /* Add what each channel with a gain of its own plays to what the others do; a gain that nothing is
  * heard with goes on all the same. */
 static void add_buses(Harp* harp, uint32_t heard, const Reading* reading, uint32_t n_frames) {
-  differentiate(harp, 0, reading, n_frames);
+  finish_bus(harp, 0, reading, n_frames);
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     Line* const gain = &harp->channels[channel].gain;
     const bool is_heard = heard >> (1 + channel) & 1;
@@ -319,6 +325,7 @@ static void mend(Harp* harp, uint32_t n_parts, uint32_t heard, uint32_t n_frames
   harp_bridge_mend(harp);
   clear_buses(harp, heard, n_frames, n_taps);
   memset(harp->before, 0, sizeof harp->before);
+  memset(harp->onsets, 0, sizeof harp->onsets);
 }
 
 /* Run as many of `n_frames` as can be run in one go; how many they were. */
@@ -336,15 +343,50 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
   }
   add_buses(harp, heard, &reading, n);
   harp_bridge_pass(harp, n);
-  mix_down(harp, &reading, n, left, right);
-  block_dc(harp, n, left, right);
+  mix_down(harp, &reading, n, left);
+  block_dc(harp, n, left);
+  harp_stereo_run(&harp->stereo, left, n, left, right);
   return n;
+}
+
+/* A tap of a string, of its position or its velocity. */
+static double
+read_string(const HarpString* string, const ChainTap* tap, float (*of)(const Chain*, uint32_t)) {
+  const Chain* const chain = &string->voice.chain;
+  return (double)tap->weight[0] * (double)of(chain, tap->mass[0]) +
+         (double)tap->weight[1] * (double)of(chain, tap->mass[1]);
+}
+
+/* Hide that what is read of a string steps: by what it reads now, or the other way round. */
+static void hide(Harp* harp, const HarpString* string, double sign) {
+  const Reading reading = reading_of(&harp->pickups);
+  const uint32_t bus = bus_of(harp, harp_channels_heard(string));
+  for (uint32_t t = 0; t < reading.n_taps; ++t) {
+    const ChainTap tap = voice_tap(&string->voice, &reading.at[t], angle_of(harp, string));
+    const double x = sign * read_string(string, &tap, chain_position);
+    const double u = sign > 0.0 ? read_string(string, &tap, chain_velocity) : 0.0;
+    if (reading.at[t].type == PICKUP_VELOCITY) {
+      harp->before[bus][t] -= (float)x;
+      onset_hide(&harp->onsets[bus][t], u, 0.0);
+    } else {
+      onset_hide(&harp->onsets[bus][t], x, u);
+    }
+  }
+  harp->onset_type = reading.at[0].type;
+}
+
+void harp_mixer_hide_end(Harp* harp, const HarpString* string) {
+  hide(harp, string, 1.0);
+}
+
+void harp_mixer_hide_start(Harp* harp, const HarpString* string) {
+  hide(harp, string, -1.0);
 }
 
 void harp_mixer_run(Harp* harp, uint32_t n_frames, float* left, float* right) {
   for (uint32_t done = 0; done < n_frames;) {
     Pickup places[PICKUPS];
-    harp_patch_pickups(&harp->patch, places);
+    pickups_of(harp, places);
     pickups_move(&harp->pickups, places, harp->n_fade);
     done += run_stretch(harp, n_frames - done, left + done, right + done);
   }

@@ -9,6 +9,12 @@
 
 #include "core/harp/harp_state.h"
 
+/** A string that rings is to be put to sleep at once: let nobody hear a step. */
+void harp_mixer_hide_end(Harp* harp, const HarpString* string);
+
+/** A string that slept is at once where it is, at rest: the same. */
+void harp_mixer_hide_start(Harp* harp, const HarpString* string);
+
 /** See harp_run(). */
 void harp_mixer_run(Harp* harp, uint32_t n_frames, float* left, float* right);
 

@@ -12,18 +12,13 @@ typedef struct {
   double level;           /**< Gain, ≥ 0 */
   PickupType pickup_type; /**< What pickups hear */
   double pickup;          /**< Where strings are read, fraction of the length, 0 to 1 */
-  double spread; /**< Between the left and the right pickup, fraction of the length, 0 to 0.5; past
-                    an end, folded back */
-  Exciter exciter;  /**< What strings are played with */
+  double spread;          /**< How unlike left and right are, 0 to 0.5: core/harp/harp_stereo.h */
+  Exciter exciter;        /**< What strings are played with */
   double pluck;     /**< Where strings are plucked, struck or bowed, fraction of the length, 0 to 1;
                        hammers keep off the middle, and bows near the walls */
   double hardness;  /**< Of what plucks or strikes, or pressure of the bow, 0 to 1 */
   double resonance; /**< How much the bridge that all strings share moves, 0 to 1 */
   double vibrato_hz; /**< How fast a vibrato is [Hz], > 0 */
 } HarpPatch;
-
-/** Where the patch hears strings on the left and on the right: alike where it has no spread.  A
- * place beyond an end folds back, so that a wide pair near a wall has no silent side. */
-void harp_patch_pickups(const HarpPatch* patch, Pickup places[PICKUPS]);
 
 #endif

@@ -4,9 +4,11 @@
 
 #include "core/base/line.h"
 #include "core/harp/harp_patch.h"
+#include "core/harp/harp_stereo.h"
 #include "core/harp/harp_string.h"
 #include "core/string/chain.h"
 #include "core/voice/bridge.h"
+#include "core/voice/onset.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -17,7 +19,7 @@ enum {
   HARP_SPARES = 32,               /**< Strings for keys that more than one channel holds */
   HARP_BUSES = 1 + HARP_CHANNELS, /**< What channels of gain 1 play, and what each other one does */
   HARP_STRINGS = HARP_KEYS + HARP_SPARES,
-  HARP_MIX_FRAMES = 256, /**< Frames that are mixed at a time */
+  HARP_MIX_FRAMES = HARP_STEREO_FRAMES, /**< Frames that are mixed at a time */
 };
 
 /** A channel that plays, and the pedals under it. */
@@ -43,19 +45,17 @@ typedef struct {
   uint32_t bus; /**< Where they are heard */
   uint32_t first;
   uint32_t n;
-  double pulled[CHAIN_MAX_TAPS];  /**< What their taps read of the last pull, for y = 1 */
-  double carried[CHAIN_MAX_TAPS]; /**< What they read of strings that lie where it carries them */
+  double pulled[CHAIN_MAX_TAPS]; /**< What their taps read of the last pull, for y = 1 */
 } HarpBridgeBatch;
 
 /** Where the last mass of a string is, and what the tie makes of it. */
 typedef struct {
-  float* f;       /**< Its position, where it is in floats */
-  double* d;      /**< Where it is in doubles */
-  size_t to_u;    /**< From there to its velocity */
-  double give;    /**< r p */
-  double pull;    /**< p */
-  double spring;  /**< s */
-  double carried; /**< p C */
+  float* f;      /**< Its position, where it is in floats */
+  double* d;     /**< Where it is in doubles */
+  size_t to_u;   /**< From there to its velocity */
+  double give;   /**< r p */
+  double pull;   /**< p */
+  double spring; /**< s */
 } HarpBridgeEnd;
 
 /** Zero moves nothing. */
@@ -92,12 +92,16 @@ typedef struct Harp {
   uint8_t buses[HARP_STRINGS];      /**< Where each of them is heard */
   ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
   HarpBridge bridge;
+  HarpStereo stereo;
   bool is_bowed;   /**< Whether a note has been bowed since all was still */
-  double dc[2];    /**< What stands still on each side, once a note has been bowed */
+  double dc;       /**< What stands still, once a note has been bowed */
   Reading reading; /**< How they were read last */
   uint32_t apart;  /**< The channels that had a bus of their own then, a bit each */
   float before[HARP_BUSES][CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is
                                                differentiated */
+  Onset onsets[HARP_BUSES][CHAIN_MAX_TAPS]; /**< What hides that strings were pulled aside */
+  Pole onset;                               /**< How that goes */
+  PickupType onset_type;                    /**< What was read when there was something to hide */
   float mix[HARP_BUSES][CHAIN_MAX_TAPS][HARP_MIX_FRAMES];
 } Harp;
 

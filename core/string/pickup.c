@@ -22,7 +22,7 @@ ChainTap pickup_tap(uint32_t n_masses, double place) {
 }
 
 ChainTap
-pickup_tap_of_type(PickupType type, uint32_t n_masses, double place, double angle1, bool is_far) {
+pickup_tap_of_type(PickupType type, uint32_t n_masses, double place, double angle1) {
   ChainTap tap = pickup_tap(n_masses, place);
   switch (type) {
   case PICKUP_DISPLACEMENT:
@@ -34,9 +34,7 @@ pickup_tap_of_type(PickupType type, uint32_t n_masses, double place, double angl
     break;
   }
   case PICKUP_FORCE: {
-    const uint32_t end = is_far ? n_masses - 1 : 0;
-    tap = (ChainTap){.mass = {end, end},
-                     .weight = {(float)(FORCE_GAIN * (n_masses + 1.0) / PI), 0.0f}};
+    tap = (ChainTap){.weight = {(float)(FORCE_GAIN * (n_masses + 1.0) / PI), 0.0f}};
     break;
   }
   }

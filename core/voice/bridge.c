@@ -112,7 +112,6 @@ static BridgeTie tie_of(const Sums* sums, StringCoefs coefs, uint32_t n_masses, 
       .weight = weight,
       .pull = sqrt(kept) * pull,
       .spring = kept * strength * sums->slow,
-      .carried = sqrt(kept) * pull * sums->slow,
       .load = kept * load,
   };
 }

@@ -65,11 +65,10 @@ typedef struct {
 
 /** How a string is tied to the bridge; zero is not at all. */
 typedef struct {
-  double weight;  /**< r: a mass of the string's over the bridge's */
-  double pull;    /**< p: on the last mass, for y = 1 */
-  double spring;  /**< s: what it adds to the bridge's spring */
-  double carried; /**< p C: where the last mass is at rest, for y = 1 */
-  double load;    /**< What it takes of the stability limit */
+  double weight; /**< r: a mass of the string's over the bridge's */
+  double pull;   /**< p: on the last mass, for y = 1 */
+  double spring; /**< s: what it adds to the bridge's spring */
+  double load;   /**< What it takes of the stability limit */
 } BridgeTie;
 
 /** What makes a tie. */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 bool pickups_are_same(const Pickup* a, const Pickup* b) {
-  return a->type == b->type && a->place == b->place && a->is_far == b->is_far;
+  return a->type == b->type && a->place == b->place;
 }
 
 void pickups_set(Pickups* pickups, const Pickup places[PICKUPS]) {

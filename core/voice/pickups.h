@@ -22,7 +22,6 @@ enum { PICKUPS = 2 /**< Left and right, or two of a guitar */ };
 typedef struct {
   PickupType type;
   double place; /**< Fraction of the length, 0 to 1 */
-  bool is_far;  /**< PICKUP_FORCE: at the end at place 1 */
 } Pickup;
 
 /** A pair of pickups; zero reads at a wall. */

@@ -7,7 +7,6 @@ bool tie_is_on(const Tie* tie) {
 static void glide(Tie* tie, BridgeTie goal, uint32_t n_frames) {
   line_to(&tie->pull, goal.pull, n_frames);
   line_to(&tie->spring, goal.spring, n_frames);
-  line_to(&tie->carried, goal.carried, n_frames);
   line_to(&tie->load, goal.load, n_frames);
   tie->weight = goal.weight;
 }
@@ -30,7 +29,6 @@ void tie_glide(Tie* tie, const Chain* chain, BridgeHold hold, uint32_t n_glide) 
 void tie_renew(Tie* tie, uint32_t n_frames) {
   const BridgeTie goal = {.pull = tie->pull.goal,
                           .spring = tie->spring.goal,
-                          .carried = tie->carried.goal,
                           .load = tie->load.goal,
                           .weight = tie->weight};
   glide(tie, (BridgeTie){0}, 0);

@@ -17,9 +17,8 @@
 
 /** Zero is no tie. */
 typedef struct {
-  Line pull; /**< As of a BridgeTie; the four move together */
+  Line pull; /**< As of a BridgeTie; the three move together */
   Line spring;
-  Line carried;
   Line load;
   double weight;
   uint32_t n_masses; /**< Of the string that it was made for */
@@ -58,7 +57,6 @@ void tie_renew(Tie* tie, uint32_t n_frames);
 static inline void tie_advance(Tie* tie) {
   (void)line_next(&tie->pull);
   (void)line_next(&tie->spring);
-  (void)line_next(&tie->carried);
   (void)line_next(&tie->load);
 }
 

@@ -355,7 +355,7 @@ void voice_hand_over(Voice* from, Voice* to) {
 }
 
 void voice_pluck(Voice* voice, Pluck pluck) {
-  credit(voice, pluck_add(&voice->chain, pluck, angle1_of(voice)));
+  credit(voice, pluck_pull(&voice->chain, pluck));
   chain_settle(&voice->chain);
   voice->loudest = 0.0;
   notice(voice);
@@ -491,7 +491,7 @@ ChainTap voice_tap(const Voice* voice, const Pickup* pickup, double angle1) {
   const uint32_t n_masses = voice->chain.n_masses;
   return pickup->type == PICKUP_DISPLACEMENT
              ? pickup_tap(n_masses, pickup->place)
-             : pickup_tap_of_type(pickup->type, n_masses, pickup->place, angle1, pickup->is_far);
+             : pickup_tap_of_type(pickup->type, n_masses, pickup->place, angle1);
 }
 
 void voice_run(

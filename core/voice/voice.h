@@ -178,7 +178,7 @@ void voice_hand_over(Voice* from, Voice* to);
 
 /* Playing a voice that is awake */
 
-/** Add a pluck to its motion. */
+/** Pull it aside and let it go, beside all that it does. */
 void voice_pluck(Voice* voice, Pluck pluck);
 
 /** Throw a hammer at it. */

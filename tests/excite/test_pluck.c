@@ -94,7 +94,7 @@ static void fundamental_is_that_of_the_ideal_string(void** state) {
           const double f0_hz = limits[l] <= 20 ? 110.0 : 20.0;
           const double angle = string_up(&chain, rates_hz[r], f0_hz, limits[l]);
           const double w = width_of(chain.n_masses, is_hard ? HARDEST : SOFTEST);
-          pluck_add(&chain, (Pluck){place, is_hard, 0.25}, angle);
+          pluck_pull(&chain, (Pluck){place, is_hard, 0.25});
           const double amplitude = ringing_amplitude(&chain, angle, (int)(2.0 * PI / angle));
           if (place > w && place < 1.0 - w) {
             const double ideal = 4.0 / PI * 0.25 * sin(PI * place) * finger(w);
@@ -124,27 +124,101 @@ static void one_mass_is_plucked_wherever_one_plucks(void** state) {
     const double place = 0.25 * quarter;
     Chain chain;
     const double angle = string_up(&chain, 48000.0, 1000.0, 1);
-    pluck_add(&chain, (Pluck){place, 0.5, 0.25}, angle);
+    pluck_pull(&chain, (Pluck){place, 0.5, 0.25});
     assert_within("amplitude, relative",
                   fabs(ringing_amplitude(&chain, angle, 480) / (4.0 / PI * 0.25) - 1.0), 1e-5);
   }
 }
 
-/* The highest partial that is within 20 dB of the strongest: what a wide finger takes away. */
+/* Positions of an undamped string of `n_masses`, as flexible as its partials let it be. */
+static void string_of(Chain* chain, uint32_t n_masses, Partials partials, double inharmonicity) {
+  const TuningTarget target = {.rate_hz = 48000.0,
+                               .tone = {20.0, HUGE_VAL},
+                               .inharmonicity = inharmonicity,
+                               .partials = partials};
+  StringCoefs coefs = {0};
+  assert_int_equal(tuning_solve(&target, n_masses, &coefs), STATUS_OK);
+  chain_init(chain, chain_kernel(0), memory, n_masses);
+  chain_set(chain, coefs);
+}
+
+/* The sine of partial `k` in the positions, or in what moves. */
+static double partial(const Chain* chain, uint32_t k, float (*of)(const Chain*, uint32_t)) {
+  const double length = chain->n_masses + 1.0;
+  double sum = 0.0;
+  for (uint32_t i = 0; i < chain->n_masses; ++i) {
+    sum += 2.0 / length * sin(PI * k * (i + 1.0) / length) * (double)of(chain, i);
+  }
+  return sum;
+}
+
+/* sin(kπp)/k² in displacement, so /k in velocity and at the bridge. */
+static void partials_are_those_of_a_string_pulled_aside(void** state) {
+  (void)state;
+  static const double places[] = {0.09, 0.13, 0.31, 0.47};
+  for (size_t p = 0; p < 4; ++p) {
+    Chain chain;
+    double worst = 0.0;
+    string_of(&chain, 1000, PARTIALS_LUMPED, 0.0);
+    pluck_pull(&chain, (Pluck){places[p], 1.0, 0.25});
+    for (uint32_t k = 1; k <= 30; ++k) {
+      const double ideal =
+          4.0 / PI * 0.25 * sin(PI * k * places[p]) / (k * k) * finger(k * HARDEST);
+      worst = fmax(worst, fabs(partial(&chain, k, chain_position) - ideal) * k * k / 0.25);
+    }
+    assert_within("partials, times k², of the amplitude", worst, 0.01);
+  }
+}
+
+/* Whatever bends it: a_k X_k is the force, which is seen in what moves, half of it. */
+static void string_gives_way_until_its_springs_hold_the_finger(void** state) {
+  (void)state;
+  static const double inharmonicities[] = {0.0, 1e-4, 1e-2};
+  double worst = 0.0;
+  for (uint32_t n = 1; n <= 400; n = 3 * n + 1) {
+    for (int b = 0; b < 9; ++b) {
+      Chain chain;
+      string_of(&chain, n, (Partials)(b % 3), inharmonicities[b / 3]);
+      pluck_pull(&chain, (Pluck){0.29, 0.7, 0.25});
+      const double first = partial(&chain, 1, chain_position);
+      for (uint32_t k = 1; k <= n; ++k) {
+        const double force = 2.0 * partial(&chain, k, chain_velocity);
+        const double given = force / tuning_mode(chain.now, n, k).a;
+        worst = fmax(worst, fabs(given - partial(&chain, k, chain_position)) / first);
+      }
+    }
+  }
+  /* Positions are floats. */
+  assert_within("partials, of the first", worst, 1e-6);
+}
+
+/* So the first partial is a cosine from the frame on. */
+static void string_is_let_go_from_rest(void** state) {
+  (void)state;
+  Chain chain;
+  const double angle = string_up(&chain, 48000.0, 110.0, 100);
+  pluck_pull(&chain, (Pluck){0.2, 0.5, 0.25});
+  const double amplitude = fundamental(&chain);
+  double worst = 0.0;
+  for (int n = 0; n < 1000; ++n) {
+    worst = fmax(worst, fabs(fundamental(&chain) - amplitude * cos(angle * n)) / amplitude);
+    step(&chain);
+  }
+  assert_within("off the cosine", worst, 2e-5);
+}
+
+/* The highest partial that is pulled at within 20 dB of the strongest: what a wide finger takes
+ * away. */
 static uint32_t brightness(double hardness) {
   enum { N = 200 };
   Chain chain;
   uint32_t highest = 0;
   double most = 0.0;
   double partials[N + 1];
-  chain_init(&chain, chain_kernel(0), memory, N);
-  pluck_add(&chain, (Pluck){0.37, hardness, 0.25}, 0.01);
+  string_of(&chain, N, PARTIALS_LUMPED, 0.0);
+  pluck_pull(&chain, (Pluck){0.37, hardness, 0.25});
   for (uint32_t k = 1; k <= N; ++k) {
-    double sum = 0.0;
-    for (uint32_t i = 0; i < N; ++i) {
-      sum += sin(PI * k * (i + 1.0) / (N + 1.0)) * (double)chain_velocity(&chain, i);
-    }
-    partials[k] = fabs(sum);
+    partials[k] = fabs(partial(&chain, k, chain_velocity));
     most = fmax(most, partials[k]);
   }
   for (uint32_t k = 1; k <= N; ++k) {
@@ -166,7 +240,7 @@ static void harder_is_brighter(void** state) {
   assert_in_range(brightness(1.0), 50, 200);
 }
 
-/* The pluck is a push that the masses can carry: next to nothing of the mode that only flips. */
+/* The pull is one that the masses can carry: next to nothing of the mode that only flips. */
 static void flipping_mode_is_left_alone(void** state) {
   (void)state;
   for (uint32_t n = 20; n <= 1000; n *= 2) {
@@ -175,8 +249,8 @@ static void flipping_mode_is_left_alone(void** state) {
       Chain chain;
       double sum = 0.0;
       double most = 0.0;
-      chain_init(&chain, chain_kernel(0), memory, n);
-      pluck_add(&chain, (Pluck){place, 1.0, 0.25}, 0.01);
+      string_of(&chain, n, PARTIALS_LUMPED, 0.0);
+      pluck_pull(&chain, (Pluck){place, 1.0, 0.25});
       for (uint32_t i = 0; i < n; ++i) {
         sum += (i % 2 ? -1.0 : 1.0) * (double)chain_velocity(&chain, i);
         most += (double)chain_velocity(&chain, i);
@@ -188,65 +262,62 @@ static void flipping_mode_is_left_alone(void** state) {
   }
 }
 
-static void ideal_string_peaks_at_the_amplitude(void** state) {
+/* A corner of 2π p (1 − p) times the amplitude, and it never moves farther. */
+static void string_is_pulled_to_a_corner_and_no_farther(void** state) {
   (void)state;
-  static const double hardnesses[] = {0.0, 0.5, 1.0};
-  double highest = 0.0;
-  double lowest = HUGE_VAL;
-  for (size_t h = 0; h < 3; ++h) {
-    for (int tenth = 1; tenth <= 9; ++tenth) {
-      const double place = 0.1 * tenth;
-      Chain chain;
-      /* 48000/2/F is 100.04: all but a Courant number of 1, where the scheme is exact. */
-      const TuningTarget target = {.rate_hz = 48000.0, .tone = {239.9, HUGE_VAL}};
-      const double angle = 2.0 * PI * 239.9 / 48000.0;
-      StringCoefs coefs = {0};
-      double peak = 0.0;
-      assert_int_equal(tuning_solve(&target, 99, &coefs), STATUS_OK);
-      chain_init(&chain, chain_kernel(0), memory, 99);
-      chain_set(&chain, coefs);
-      pluck_add(&chain, (Pluck){place, hardnesses[h], 0.25}, angle);
-      for (int n = 0; n < 400; ++n) {
-        step(&chain);
-        for (uint32_t i = 0; i < 99; ++i) {
-          peak = fmax(peak, fabs((double)chain_position(&chain, i)));
-        }
+  double worst = 0.0;
+  double farthest = 0.0;
+  for (int tenth = 1; tenth <= 9; ++tenth) {
+    const double place = 0.1 * tenth;
+    const double corner = 2.0 * PI * place * (1.0 - place) * 0.25;
+    Chain chain;
+    double peak = 0.0;
+    /* 48000/2/F is 100.04: all but a Courant number of 1, where the scheme is exact. */
+    (void)string_up(&chain, 48000.0, 239.9, 99);
+    pluck_pull(&chain, (Pluck){place, 1.0, 0.25});
+    worst = fmax(worst,
+                 fabs((double)chain_position(&chain, (uint32_t)(10 * tenth - 1)) / corner - 1.0));
+    for (int n = 0; n < 400; ++n) {
+      step(&chain);
+      for (uint32_t i = 0; i < 99; ++i) {
+        peak = fmax(peak, fabs((double)chain_position(&chain, i)));
       }
-      highest = fmax(highest, peak / 0.25);
-      lowest = fmin(lowest, peak / 0.25);
     }
+    farthest = fmax(farthest, peak / corner);
   }
-  /* The last hundredth of a mass still bends the hardest pick's corners. */
-  assert_within("peak, relative", highest, 1.05);
-  assert_within("peak falls short by", 1.0 - lowest, 0.05);
+  /* The hardest pick is two masses wide to each side. */
+  assert_within("corner, relative", worst, 0.1);
+  assert_within("farthest, of the corner", farthest, 1.01);
 }
 
-static void pluck_adds_to_what_rings(void** state) {
+static void pull_adds_to_what_rings(void** state) {
   (void)state;
   enum { N = 60 };
-  float before[N];
+  float positions[N];
+  float velocities[N];
   Chain chain;
-  const double angle = string_up(&chain, 48000.0, 200.0, N);
-  pluck_add(&chain, (Pluck){0.2, 0.4, 0.25}, angle);
+  (void)string_up(&chain, 48000.0, 200.0, N);
+  pluck_pull(&chain, (Pluck){0.2, 0.4, 0.25});
   for (int n = 0; n < 500; ++n) {
     step(&chain);
   }
   for (uint32_t i = 0; i < N; ++i) {
-    before[i] = chain_velocity(&chain, i);
-  }
-  float positions[N];
-  for (uint32_t i = 0; i < N; ++i) {
     positions[i] = chain_position(&chain, i);
+    velocities[i] = chain_velocity(&chain, i);
   }
-  pluck_add(&chain, (Pluck){0.6, 0.8, 0.1}, angle);
+  const double before = chain_energy(&chain);
+  const double given = pluck_pull(&chain, (Pluck){0.6, 0.8, -0.1});
+  assert_true(fabs(chain_energy(&chain) - before - given) < 1e-12 * before);
   Chain alone;
   static _Alignas(CHAIN_ALIGNMENT) char other_memory[32 * CHAIN_MAX_MASSES];
   chain_init(&alone, chain_kernel(0), other_memory, N);
-  pluck_add(&alone, (Pluck){0.6, 0.8, 0.1}, angle);
+  chain_set(&alone, chain.now);
+  (void)pluck_pull(&alone, (Pluck){0.6, 0.8, -0.1});
   for (uint32_t i = 0; i < N; ++i) {
-    assert_true(chain_position(&chain, i) == positions[i]);
-    const float sum = before[i] + chain_velocity(&alone, i);
-    assert_true(fabs((double)(chain_velocity(&chain, i) - sum)) <= (double)FLT_EPSILON);
+    assert_true(fabsf(chain_position(&chain, i) - positions[i] - chain_position(&alone, i)) <=
+                FLT_EPSILON);
+    assert_true(fabsf(chain_velocity(&chain, i) - velocities[i] - chain_velocity(&alone, i)) <=
+                FLT_EPSILON);
   }
 }
 
@@ -255,10 +326,13 @@ int main(void) {
       cmocka_unit_test(fundamental_is_that_of_the_ideal_string),
       cmocka_unit_test(softest_finger_costs_half_a_decibel),
       cmocka_unit_test(one_mass_is_plucked_wherever_one_plucks),
+      cmocka_unit_test(partials_are_those_of_a_string_pulled_aside),
+      cmocka_unit_test(string_gives_way_until_its_springs_hold_the_finger),
+      cmocka_unit_test(string_is_let_go_from_rest),
       cmocka_unit_test(harder_is_brighter),
       cmocka_unit_test(flipping_mode_is_left_alone),
-      cmocka_unit_test(ideal_string_peaks_at_the_amplitude),
-      cmocka_unit_test(pluck_adds_to_what_rings),
+      cmocka_unit_test(string_is_pulled_to_a_corner_and_no_farther),
+      cmocka_unit_test(pull_adds_to_what_rings),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,14 +69,14 @@ static double sum(const double* squares, uint32_t from, uint32_t to, int power) 
   return all;
 }
 
-/* Of pushes, largest difference of what is told from what is given, of the largest given. */
+/* Of pulls a_k X_k, largest difference of what is told from what is given, of the largest given. */
 static double pluck_and_tell(Strung* strung, Pluck pluck) {
   const uint32_t n = strung->chain.n_masses;
   Pluck one = pluck;
   double most = 0.0;
   double worst = 0.0;
   chain_rest(&strung->chain);
-  pluck_add(&strung->chain, pluck, strung->angle1);
+  pluck_pull(&strung->chain, pluck);
   forget(given);
   read_squares(strung, given);
   one.amplitude = 1.0;
@@ -84,10 +84,9 @@ static double pluck_and_tell(Strung* strung, Pluck pluck) {
   tell_squares(strung, &spectrum, told);
   for (uint32_t k = 1; k <= n; ++k) {
     const double a = tuning_mode(strung->chain.now, n, k).a;
-    const double sine = sqrt(a * (1.0 - 0.25 * a));
-    const double is = sine * sqrt(given[k - 1]);
+    const double is = a * sqrt(given[k - 1]);
     most = fmax(most, is);
-    worst = fmax(worst, fabs(is - sine * pluck.amplitude * sqrt(told[k - 1])));
+    worst = fmax(worst, fabs(is - a * pluck.amplitude * sqrt(told[k - 1])));
   }
   return worst / most;
 }
@@ -128,7 +127,7 @@ static void plucks_give_what_is_told(void** state) {
     double* const kind = &worst[is_cut(strung.chain.n_masses, pluck)];
     *kind = fmax(*kind, pluck_and_tell(&strung, pluck));
   }
-  assert_within("pushes, off, of the largest", worst[0], 0.04);
+  assert_within("pulls, off, of the largest", worst[0], 0.04);
   assert_within("those of fingers that a wall cuts", worst[1], 0.18);
 }
 
@@ -144,7 +143,7 @@ static void plucks_as_wide_as_a_mode_give_what_is_told(void** state) {
       worst = fmax(worst, pluck_and_tell(&strung, (Pluck){0.1 * p + 0.02, 1.0, 0.1}));
     }
   }
-  assert_within("pushes, off, of the largest", worst, 0.04);
+  assert_within("pulls, off, of the largest", worst, 0.04);
 }
 
 static void plucks_of_few_masses_give_what_is_told(void** state) {
@@ -155,8 +154,8 @@ static void plucks_of_few_masses_give_what_is_told(void** state) {
     Strung strung = any_string(&random, 1, SPECTRUM_FEW);
     worst = fmax(worst, pluck_and_tell(&strung, any_pluck(&random)));
   }
-  /* Masses are pushed in floats. */
-  assert_within("pushes, off, of the largest", worst, 1e-6);
+  /* Masses are pulled in floats, of whose rounding the stiffest modes make the most. */
+  assert_within("pulls, off, of the largest", worst, 3e-5);
 }
 
 /* dB that more is told than is given, of sums of all partials. */

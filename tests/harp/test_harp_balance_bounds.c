@@ -52,13 +52,12 @@ static double left_of(double damping_per_s) {
   return -expm1(-y) / y;
 }
 
-/* Both sides' readings of the one mass, squared: from half way to a wall half of it is read. */
+/* Both sides' readings of the one mass, squared; a spread s adds s²/2 to each in the mean. */
 static double square_of_readings(const HarpPatch* patch) {
-  const double far = patch->spread > 0.0 ? 0.5 : 1.0;
   const double reading = patch->pickup_type == PICKUP_FORCE      ? 0.18 * 2.0 / PI
-                         : patch->pickup_type == PICKUP_VELOCITY ? 0.24 * far
-                                                                 : far;
-  return 2.0 * reading * reading;
+                         : patch->pickup_type == PICKUP_VELOCITY ? 0.24
+                                                                 : 1.0;
+  return (2.0 + patch->spread * patch->spread) * reading * reading;
 }
 
 /* A sine of 4/π, read, weighed, and decayed. */

@@ -280,45 +280,8 @@ static void all_that_answers_dies_away(void** state) {
   harp_free(harp);
 }
 
-/* The pull of all strings at the bridge as they are, by the definition of a tie: by how far the
- * last mass is from where it rests with the bridge where it is. */
-static double pull_at_bridge(const Harp* harp) {
-  double sum = 0.0;
-  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    const Voice* const voice = &harp->strings[i].voice;
-    const Chain* const chain = &voice->chain;
-    if (voice->is_awake) {
-      const BridgeTie tie = bridge_tie(chain->now, chain->n_masses, voice->tie.hold);
-      const ChainTap tap = pickup_tap_of_type(PICKUP_FORCE, chain->n_masses, 0.0, 0.0, true);
-      const double x = (double)chain_position(chain, chain->n_masses - 1);
-      sum += (double)tap.weight[0] * (x - tie.carried * harp->bridge.bridge.y);
-    }
-  }
-  return sum;
-}
-
-static void force_is_what_the_bridge_feels(void** state) {
-  (void)state;
-  HarpPatch patch = patch_with(1.0);
-  patch.pickup_type = PICKUP_FORCE;
-  patch.spread = 0.2;
-  patch.exciter = EXCITER_BOW;
-  Harp* const harp = harps_new(RATE, &patch);
-  press_pedal_and_play(harp, RATE);
-  double worst = 0.0;
-  for (int i = 0; i < 2000; ++i) {
-    harp_run(harp, 1, left, right);
-    const double heard = (double)right[0] + harp->dc[1];
-    worst = fmax(worst, fabs(heard - harp->level.value * pull_at_bridge(harp)));
-  }
-  print_message("  off by %g\n", worst);
-  assert_true(worst < 1e-5);
-  harp_free(harp);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(force_is_what_the_bridge_feels),
       cmocka_unit_test(without_resonance_there_is_no_bridge),
       cmocka_unit_test(bridge_leaves_nothing_behind),
       cmocka_unit_test(strings_wake_in_the_same_order_again),

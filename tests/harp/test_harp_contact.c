@@ -109,7 +109,7 @@ static void place_and_hardness_are_the_patchs(void** state) {
   patch.hardness = 0.9;
   const double hard = brightness(harp, &patch);
   patch.hardness = 0.5;
-  patch.pluck = 0.45;
+  patch.pluck = 0.05;
   const double elsewhere = brightness(harp, &patch);
   print_message("  usual %.2f, soft %.2f, hard %.2f, elsewhere %.2f\n", usual, soft, hard,
                 elsewhere);

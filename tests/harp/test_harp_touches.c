@@ -62,8 +62,9 @@ static void far_bends_are_exact_and_do_not_click(void** state) {
     Tone heard = {0};
     assert_true(measure_tone(bent + 2000, 2 * RATE - 2000, RATE, asked, &heard));
     worst = fmax(worst, fabs(measure_cents(heard.f0_hz, asked.f0_hz)));
-    /* Steps grow with the pitch. */
-    assert_within("step, of a pluck's", step / pluck / fmax(1.0, exp2(bends[b] / 12.0)), 1.05);
+    /* Steps grow with the pitch; and the corner of a pull, moved onto other masses, rings a little.
+     */
+    assert_within("step, of a pluck's", step / pluck / fmax(1.0, exp2(bends[b] / 12.0)), 1.15);
   }
   assert_within("cents", worst, 0.005);
   harp_free(harp);

@@ -16,6 +16,7 @@ HarpPatch harp_notes_patch(void) {
   HarpPatch plain = harps_patch(0);
   plain.string.release_s = HARP_NOTES_RELEASE_S;
   plain.vibrato_hz = 5.5;
+  plain.spread = 0.0;
   return plain;
 }
 

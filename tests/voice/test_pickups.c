@@ -42,7 +42,7 @@ static const bool both[PICKUPS] = {true, true};
 
 static void place(Pickup at[PICKUPS], const double places[PICKUPS]) {
   for (int p = 0; p < PICKUPS; ++p) {
-    at[p] = (Pickup){PICKUP_DISPLACEMENT, places[p], false};
+    at[p] = (Pickup){PICKUP_DISPLACEMENT, places[p]};
   }
 }
 
@@ -142,11 +142,10 @@ static void move_under_way_is_not_disturbed(void** state) {
 /* Another type, or the other end, is another place. */
 static void what_is_heard_is_a_part_of_the_place(void** state) {
   (void)state;
-  const Pickup pickup = {PICKUP_FORCE, 0.3, false};
-  assert_true(pickups_are_same(&pickup, &(Pickup){PICKUP_FORCE, 0.3, false}));
-  assert_false(pickups_are_same(&pickup, &(Pickup){PICKUP_FORCE, 0.3, true}));
-  assert_false(pickups_are_same(&pickup, &(Pickup){PICKUP_FORCE, 0.31, false}));
-  assert_false(pickups_are_same(&pickup, &(Pickup){PICKUP_VELOCITY, 0.3, false}));
+  const Pickup pickup = {PICKUP_FORCE, 0.3};
+  assert_true(pickups_are_same(&pickup, &(Pickup){PICKUP_FORCE, 0.3}));
+  assert_false(pickups_are_same(&pickup, &(Pickup){PICKUP_FORCE, 0.31}));
+  assert_false(pickups_are_same(&pickup, &(Pickup){PICKUP_VELOCITY, 0.3}));
 }
 
 /* Those that nobody wants cost no tap, and those that fade come after those that stay. */

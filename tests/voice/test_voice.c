@@ -23,7 +23,7 @@ static VoiceAim aim_of(double f0_hz, double tau_s) {
 }
 
 static void run(Voice* voice, uint32_t n_frames) {
-  static const Reading reading = {.at = {{PICKUP_DISPLACEMENT, 0.1, false}}, .n_taps = 1};
+  static const Reading reading = {.at = {{PICKUP_DISPLACEMENT, 0.1}}, .n_taps = 1};
   float none[1024];
   float* const out[] = {none};
   while (n_frames > 0) {

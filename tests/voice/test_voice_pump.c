@@ -70,7 +70,7 @@ static double square_per_energy(const Voice* voice) {
 }
 
 static void run(Voice* voice, uint32_t n_frames) {
-  static const Reading reading = {.at = {{PICKUP_DISPLACEMENT, 0.1, false}}, .n_taps = 1};
+  static const Reading reading = {.at = {{PICKUP_DISPLACEMENT, 0.1}}, .n_taps = 1};
   float heard[2048] = {0};
   float* const out[] = {heard};
   voice_run(voice, &reading, 0.0, n_frames, out);

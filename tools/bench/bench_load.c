@@ -15,7 +15,6 @@
 
 enum { MOST_STRINGS = 128, SETTLE_FRAMES = 1024, FRESH_FRAMES = 24000, N_TAPS = 2, A4 = 69 };
 
-static const double PI = 3.14159265358979323846;
 static const double RATE_HZ = 48000.0;
 static const double TAU_S = 2.0;
 static const double LOSS = 0.01;
@@ -60,8 +59,7 @@ typedef struct {
   BenchBest best;
   Chain chains[MOST_STRINGS];
   ChainPart parts[MOST_STRINGS];
-  double angles[MOST_STRINGS]; /* 2πF/rate */
-  void* memory;                /* Owned */
+  void* memory; /* Owned */
 } Load;
 
 static TuningTarget target_of(const LoadPlan* plan, uint32_t i) {
@@ -93,7 +91,7 @@ static void start(Load* load) {
   const Pluck pluck = {.place = 0.13, .hardness = 0.5, .amplitude = 0.25};
   for (uint32_t i = 0; i < load->n_strings; ++i) {
     chain_rest(&load->chains[i]);
-    pluck_add(&load->chains[i], pluck, load->angles[i]);
+    pluck_pull(&load->chains[i], pluck);
   }
   run_frames(load, SETTLE_FRAMES);
   for (uint32_t i = 0; i < load->n_strings; ++i) {
@@ -119,7 +117,6 @@ static size_t add_string(Load* load, uint32_t i, char* memory) {
   part->chain = chain;
   part->taps[0] = pickup_tap(n_masses, 0.15);
   part->taps[1] = pickup_tap(n_masses, 0.25);
-  load->angles[load->n_strings] = 2.0 * PI * target.tone.f0_hz / RATE_HZ;
   const bool is_whole = limit < CHAIN_MAX_MASSES;
   const uint32_t n_wanted = is_whole ? n_masses : tuning_max_masses(&target, INT32_MAX);
   load->n_cut += n_wanted > n_masses;

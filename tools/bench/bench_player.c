@@ -47,7 +47,7 @@ static bool string_chain(BenchPlayer* player, StringCoefs coefs) {
   }
   chain_init(&player->chain, chain_kernel(0), player->memory, player->n_masses);
   chain_set(&player->chain, coefs);
-  pluck_add(&player->chain, pluck, 2.0 * PI * player->wanted.tone.f0_hz / player->wanted.rate_hz);
+  pluck_pull(&player->chain, pluck);
   return true;
 }
 
