@@ -69,6 +69,10 @@ static double way_back(const Hammer* hammer, double most) {
   return high;
 }
 
+double hammer_hardness(double hardness, double softness) {
+  return fmax(HAMMER_SOFT, fmin(1.0, hardness + softness * (HAMMER_SOFT - hardness)));
+}
+
 void hammer_start(Hammer* hammer, const Chain* chain, HammerMake make, double rate_hz) {
   const Contact contact = contact_at(chain, make.place);
   const double closing = make.velocity - contact_velocity(chain, &contact);

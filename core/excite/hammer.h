@@ -27,11 +27,14 @@
 #define HAMMER_MOST_S 0.1
 #define HAMMER_LEAVING_S 0.005
 
+/** Hardness that the softest hand comes to, whatever it strikes with. */
+#define HAMMER_SOFT (-0.8)
+
 /** A strike as it is wanted. */
 typedef struct {
-  double place;     /**< Fraction of the length, 0 to 1; kept off the walls by one mass */
-  double hardness;  /**< 0: a soft, long strike, to 1: a hard, short one */
-  double mass;      /**< Of the hammer, as a fraction of the string's, 0.02 to 1 */
+  double place;    /**< Fraction of the length, 0 to 1; kept off the walls by one mass */
+  double hardness; /**< 0: a soft, long strike, to 1: a hard, short one; HAMMER_SOFT: the softest */
+  double mass;     /**< Of the hammer, as a fraction of the string's, 0.02 to 1 */
   double amplitude; /**< As loud as a Pluck of it, in units of output, > 0 */
 } Strike;
 
@@ -58,6 +61,10 @@ typedef struct {
   uint32_t n_left; /**< Steps until its time is over */
   bool is_active;  /**< Whether it is to act */
 } Hammer;
+
+/** What a hand of some softness (core/excite/pluck.h) makes of hardness: HAMMER_SOFT to 1.  So the
+ * softest notes are duller, beside the level, by 10 dB and more than the hardest. */
+double hammer_hardness(double hardness, double softness);
 
 /**
    Throw a hammer at a string, from just before it.

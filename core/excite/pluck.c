@@ -6,6 +6,10 @@
 #include <math.h>
 #include <stdint.h>
 
+/* The force of a hand that plays with what it has as that is, and how fast it is softer. */
+static const double USUAL_FORCE = 0.75;
+static const double SOFTENING = 0.75;
+
 /* A force or a shape; masses count from 1, and what is at 0 and at N + 1 is a wall. */
 typedef struct {
   uint32_t n;
@@ -19,9 +23,7 @@ static double raised_cosine(double distance) {
 /* What the finger pulls each mass with, of 1 in all. */
 static void press(Shape* force, const Pluck* pluck) {
   const double length = force->n + 1.0;
-  const double width =
-      fmax(PLUCK_NARROWEST,
-           length * PLUCK_SOFTEST * pow(PLUCK_HARDEST / PLUCK_SOFTEST, pluck->hardness));
+  const double width = pluck_width(pluck, force->n);
   const double centre = fmin(fmax(pluck->place * length, 1.0), (double)force->n);
   double sum = 0.0;
   for (uint32_t i = 1; i <= force->n; ++i) {
@@ -84,6 +86,19 @@ static void stiffen(Shape* shape, StringCoefs c) {
   }
 }
 
+double pluck_softness(double force) {
+  return 1.0 - pow(force / USUAL_FORCE, SOFTENING);
+}
+
+double pluck_width(const Pluck* pluck, uint32_t n_masses) {
+  const double softest = PLUCK_SOFTEST * (n_masses + 1.0);
+  const double range = log(PLUCK_SOFTEST / PLUCK_HARDEST);
+  const double most = fmax(0.0, log(softest / PLUCK_NARROWEST) / range);
+  const double hardness = fmin(pluck->hardness, most);
+  const double played = hardness + pluck->softness * (PLUCK_SOFT - hardness);
+  return fmax(PLUCK_NARROWEST, softest * exp(-range * fmax(PLUCK_SOFT, fmin(played, 1.0))));
+}
+
 double pluck_pull(Chain* chain, Pluck pluck) {
   const double a1 = tuning_mode(chain->now, chain->n_masses, 1).a;
   const double force = pluck.amplitude * (2.0 / PI) * (chain->n_masses + 1.0) * a1;
@@ -98,6 +113,20 @@ double pluck_pull(Chain* chain, Pluck pluck) {
     const double x = (double)chain_position(chain, i - 1) + force * aside.at[i];
     const double u = (double)chain_velocity(chain, i - 1) + 0.5 * force * push.at[i];
     chain_place(chain, i - 1, (float)x, (float)u);
+  }
+  return chain_energy(chain) - before;
+}
+
+double pluck_push(Chain* chain, Pluck pluck) {
+  const double angle1 = pole_angle(tuning_mode(chain->now, chain->n_masses, 1));
+  const double momentum = pluck.amplitude * (2.0 / PI) * (chain->n_masses + 1.0) * sin(angle1);
+  const double before = chain_energy(chain);
+  Shape push = {.n = chain->n_masses};
+  press(&push, &pluck);
+  for (uint32_t i = 1; i <= chain->n_masses; ++i) {
+    if (push.at[i] > 0.0) {
+      chain_push(chain, i - 1, (float)(momentum * push.at[i]));
+    }
   }
   return chain_energy(chain) - before;
 }

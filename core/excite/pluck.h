@@ -8,11 +8,13 @@
 
 #include "core/string/chain.h"
 
-/** How much harder than a pluck of the usual force the hardest one is, of 0 to 1: forces as
- * velocities are, of 1; and what full brightness does to hardness. */
-#define PLUCK_HARDER 0.25
-#define PLUCK_USUAL_FORCE 0.75
+#include <stdint.h>
+
+/** What full brightness does to hardness. */
 #define PLUCK_BRIGHTER 0.4
+
+/** Hardness that the softest hand comes to, whatever it plays with. */
+#define PLUCK_SOFT (-0.2)
 
 /** Half the width of the softest finger and of the hardest pick, as fractions of the length, and
  * the least [masses]: a narrower raised cosine would pull at the mode that masses cannot carry. */
@@ -26,7 +28,22 @@ typedef struct {
   double hardness;  /**< 0: a wide, soft finger; 1: a narrow, hard pick */
   double amplitude; /**< The fundamental is to be 4/π of it in the middle, in units of output; less
                        than 0: pulled the other way */
+  double
+      softness; /**< Of the hand, see pluck_softness(); 0: it plays with what it has as that is */
 } Pluck;
+
+/**
+   How soft a hand plays: 1 − (force/0.75)^0.75.  It takes hardness h to h + softness (PLUCK_SOFT −
+   h), from where the string's masses would not tell it from what is harder; so the softest notes
+   are duller, beside the level, by 6 dB and more than the hardest.
+
+   @param force  Share of the full force, as a velocity is of 127, 0 to 1
+   @return 1, very soft, to −0.24
+*/
+double pluck_softness(double force);
+
+/** Half the width of what plucks [masses], at least PLUCK_NARROWEST. */
+double pluck_width(const Pluck* pluck, uint32_t n_masses);
 
 /**
    Pull a string aside and let it go: what it has is added to, and what is added begins at rest.
@@ -45,5 +62,16 @@ typedef struct {
    @return What it adds to the energy of the chain, see chain_energy()
 */
 double pluck_pull(Chain* chain, Pluck pluck);
+
+/**
+   Push a string where it is: momentum is added, and no position jumps.
+
+   As a string moves in displacement that is pushed, so moves one in velocity that is pulled aside:
+   partial k of it is sin(kπp)/k.  So who hears velocities alone, as a magnet does, may push and
+   read displacements.  The fundamental's amplitude is that of pluck_pull().
+
+   @return What it adds to the energy of the chain
+*/
+double pluck_push(Chain* chain, Pluck pluck);
 
 #endif

@@ -132,8 +132,8 @@ static void throw_at(HammerMake* make, double velocity) {
  * which a wall may cut.  Few masses are all that is under the finger. */
 static double share_of_pluck(uint32_t n_masses, const Strike* wanted) {
   const double length = n_masses + 1.0;
-  const double width = fmax(PLUCK_NARROWEST / length,
-                            PLUCK_SOFTEST * pow(PLUCK_HARDEST / PLUCK_SOFTEST, wanted->hardness));
+  const Pluck pluck = {.hardness = wanted->hardness};
+  const double width = pluck_width(&pluck, n_masses) / length;
   const double centre = kept_off_walls(wanted->place, n_masses);
   const bool is_few = n_masses <= MOST_MASSES;
   const double spacing = is_few ? 1.0 / length : 2.0 * width / MOST_MASSES;

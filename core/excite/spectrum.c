@@ -58,9 +58,7 @@ static uint32_t sum_few(uint32_t n_masses, double centre, double width, double* 
 
 Spectrum spectrum_of_pluck(uint32_t n_masses, Pluck pluck, double angle1) {
   const double step = 1.0 / (n_masses + 1.0);
-  const double width =
-      WIDER * fmax(PLUCK_NARROWEST * step,
-                   PLUCK_SOFTEST * pow(PLUCK_HARDEST / PLUCK_SOFTEST, pluck.hardness));
+  const double width = WIDER * step * pluck_width(&pluck, n_masses);
   const double centre = fmin(fmax(pluck.place, step), 1.0 - step);
   const double from = fmax(-1.0, -centre / width);
   const double to = fmin(1.0, (1.0 - centre) / width);
@@ -90,7 +88,8 @@ static double mean(const double* shares) {
 }
 
 Spectrum spectrum_of_strike(uint32_t n_masses, Strike strike, double angle1) {
-  const Pluck pluck = {strike.place, strike.hardness, strike.amplitude};
+  const Pluck pluck = {
+      .place = strike.place, .hardness = strike.hardness, .amplitude = strike.amplitude};
   Spectrum s = spectrum_of_pluck(n_masses, pluck, angle1);
   const double cosines[] = {cos(s.angles[0]), cos(s.angles[1])};
   s.exciter = EXCITER_STRIKE;

@@ -99,8 +99,8 @@ double guitar_force(uint32_t velocity) {
 }
 
 double guitar_hardness(double hardness, double force) {
-  const double harder = PLUCK_HARDER * (sqrt(fabs(force)) - PLUCK_USUAL_FORCE);
-  return clamp(hardness + harder, 0.0, 1.0);
+  const double softness = pluck_softness(sqrt(fabs(force)));
+  return clamp(hardness + softness * (PLUCK_SOFT - hardness), 0.0, 1.0);
 }
 
 Guitar* guitar_new(double rate_hz) {
@@ -222,12 +222,13 @@ void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
     GuitarString* const s = string_of(guitar, string, side);
     const double share = side ? guitar->patch.course : 1.0;
+    const bool is_usual = isnan(pluck.hardness);
     if (share > 0.0 || s->voice.is_awake) {
       const Pluck own = {
           .place = guitar_string_place(s, place),
-          .hardness = isnan(pluck.hardness) ? guitar_hardness(patch->hardness, pluck.force)
-                                            : pluck.hardness,
+          .hardness = is_usual ? patch->hardness : pluck.hardness,
           .amplitude = GUITAR_NOTE_PEAK * share * pluck.force,
+          .softness = is_usual ? pluck_softness(sqrt(fabs(pluck.force))) : 0.0,
       };
       guitar_string_leave(s, tail_of(guitar, s));
       guitar_string_pluck(s, own);

@@ -36,7 +36,8 @@
  * harp. */
 double guitar_force(uint32_t velocity);
 
-/** The patch's hardness as it is heard of a pluck, 0 to 1: a little harder for a stronger one. */
+/** The patch's hardness as it is heard of a pluck, 0 to 1: harder for a stronger one, see
+ * pluck_softness(). */
 double guitar_hardness(double hardness, double force);
 
 /** Opaque: a guitar. */

@@ -42,7 +42,7 @@ typedef struct {
   double force; /**< −1 to 1; the sign is the direction: 1 is the hardest stroke down */
   double
       place; /**< Fraction of the open string's length from the bridge, 0 to 1; NAN: the patch's */
-  double hardness; /**< 0: a wide, soft finger; 1: a narrow, hard pick; NAN: the patch's, a little
+  double hardness; /**< 0: a wide, soft finger; 1: a narrow, hard pick; NAN: the patch's,
                       harder for a stronger pluck */
 } GuitarPluck;
 

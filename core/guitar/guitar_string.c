@@ -229,7 +229,7 @@ void guitar_string_pluck(GuitarString* string, Pluck pluck) {
     guitar_string_damp(string, GUITAR_RINGING, 0);
   }
   if (string->voice.is_awake || restring(string)) {
-    voice_pluck(&string->voice, pluck);
+    voice_push(&string->voice, pluck); /* Its pickups are magnets. */
   }
 }
 

@@ -90,7 +90,8 @@ void guitar_string_vibrato(GuitarString* string, double depth, double rate);
 */
 void guitar_string_leave(GuitarString* string, GuitarString* tail);
 
-/** Pluck it, whatever damps it; `pluck.place` is a fraction of the sounding length. */
+/** Pluck it, whatever damps it; `pluck.place` is a fraction of the sounding length.  What its
+ * pickups hear is the velocity of a string that is pulled aside, see pluck_push(). */
 void guitar_string_pluck(GuitarString* string, Pluck pluck);
 
 /** Let it be damped for `n_frames`; 0: until it is plucked, or damped otherwise.  What is choked

@@ -151,14 +151,14 @@ static bool is_still(const Harp* harp) {
 /* What a channel makes of a velocity. */
 static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t velocity) {
   const double force = velocity / 127.0;
-  const double harder = PLUCK_HARDER * (force - PLUCK_USUAL_FORCE) +
-                        PLUCK_BRIGHTER * channel->touch.brightness +
-                        SOFT_HARDNESS * channel->softness;
+  const double harder =
+      PLUCK_BRIGHTER * channel->touch.brightness + SOFT_HARDNESS * channel->softness;
   const double softened = 1.0 - (1.0 - SOFT_GAIN) * channel->softness;
   return (Pluck){
       .place = harp->patch.pluck,
       .hardness = clamp(harp->patch.hardness + harder, 0.0, 1.0),
       .amplitude = HARP_NOTE_PEAK * softened * force * force,
+      .softness = pluck_softness(force),
   };
 }
 

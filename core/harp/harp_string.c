@@ -13,6 +13,9 @@ static const double FARTHEST_STRIKE = 0.47;
 static const double BOW_ATTACK_S = 0.04;
 static const double BOW_RELEASE_S = 0.03;
 
+/* How much less a soft hand presses it. */
+static const double BOW_SOFTER = 0.19;
+
 /* How the channel's brightness moves the loss between the masses: towards a tenth of it, or up, on
  * a scale of octaves, to its fourth root. */
 static const double BRIGHTEST_LOSS = 0.1;
@@ -161,12 +164,27 @@ static double place_for(Exciter exciter, double wanted) {
   return wanted > 0.5 ? 1.0 - at : at;
 }
 
+/* What plays it, by a hand of some softness, is as hard, or is pressed as hard: of a finger the
+ * string's masses tell. */
+static double hardness_for(Exciter exciter, const Pluck* pluck) {
+  switch (exciter) {
+  case EXCITER_STRIKE:
+    return hammer_hardness(pluck->hardness, pluck->softness);
+  case EXCITER_BOW:
+    return clamp(pluck->hardness - BOW_SOFTER * pluck->softness, 0.0, 1.0);
+  case EXCITER_PLUCK:
+    break;
+  }
+  return pluck->hardness;
+}
+
 static void excite(HarpString* string, Pluck pluck) {
   const HarpPatch* const patch = string->patch;
   Voice* const voice = &string->voice;
   const TuningTarget target = aim_at(string, voice->f0_hz).open;
   const HarpBalance balance = {target, voice->chain.n_masses, string->key, HAMMER_MASS};
   pluck.place = place_for(patch->exciter, pluck.place);
+  pluck.hardness = hardness_for(patch->exciter, &pluck);
   pluck.amplitude *= harp_balance_gain(patch, &balance, pluck);
   switch (patch->exciter) {
   case EXCITER_PLUCK:

@@ -21,8 +21,7 @@ ChainTap pickup_tap(uint32_t n_masses, double place) {
   };
 }
 
-ChainTap
-pickup_tap_of_type(PickupType type, uint32_t n_masses, double place, double angle1) {
+ChainTap pickup_tap_of_type(PickupType type, uint32_t n_masses, double place, double angle1) {
   ChainTap tap = pickup_tap(n_masses, place);
   switch (type) {
   case PICKUP_DISPLACEMENT:

@@ -28,13 +28,12 @@ ChainTap pickup_tap(uint32_t n_masses, double place);
 /**
    The tap for a type of pickup.  That of velocity reads x/(2 sin(ω/2)), which is to be
    differentiated, a sample less the one before, and that of force reads (N + 1)/π times the mass at
-   the end at place 0: so the fundamental would be as large as in the displacement.  Both are weakened by as
-   much as their upper partials make them louder.
+   the end at place 0: so the fundamental would be as large as in the displacement.  Both are
+   weakened by as much as their upper partials make them louder.
 
    @param angle1  ω, the fundamental's digital angular frequency [rad per sample], > 0
 */
-ChainTap
-pickup_tap_of_type(PickupType type, uint32_t n_masses, double place, double angle1);
+ChainTap pickup_tap_of_type(PickupType type, uint32_t n_masses, double place, double angle1);
 
 /** Differentiate what a tap for PICKUP_VELOCITY has read.  @param before  The sample before the
  * first; then the last. */

@@ -354,11 +354,20 @@ void voice_hand_over(Voice* from, Voice* to) {
   from->finger = ringing.finger;
 }
 
-void voice_pluck(Voice* voice, Pluck pluck) {
-  credit(voice, pluck_pull(&voice->chain, pluck));
+/* It has been plucked by so much. */
+static void take_pluck(Voice* voice, double work) {
+  credit(voice, work);
   chain_settle(&voice->chain);
   voice->loudest = 0.0;
   notice(voice);
+}
+
+void voice_pluck(Voice* voice, Pluck pluck) {
+  take_pluck(voice, pluck_pull(&voice->chain, pluck));
+}
+
+void voice_push(Voice* voice, Pluck pluck) {
+  take_pluck(voice, pluck_push(&voice->chain, pluck));
 }
 
 void voice_strike(Voice* voice, Strike strike) {

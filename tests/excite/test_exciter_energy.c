@@ -185,8 +185,8 @@ static void gesture(Played* played, Random* random) {
   played->held = played->hammer.is_active ? felt_of(played) : 0.0;
   if (what < 2) {
     const Pluck pluck = {random_between(random, 0.0, 1.0), random_between(random, 0.0, 1.0),
-                         played->amplitude * random_between(random, -1.0, 1.0)};
-    pluck_pull(&played->strung.chain, pluck);
+                         played->amplitude * random_between(random, -1.0, 1.0), 0.0};
+    (void)(random_below(random, 2) ? pluck_pull : pluck_push)(&played->strung.chain, pluck);
     ++played->counts[N_PLUCKS];
   } else if (what < 4) {
     strike_anyhow(played, random);
@@ -268,7 +268,7 @@ static void a_pluck_gives_its_pull_and_no_more(void** state) {
     const Chain* const chain = &played.strung.chain;
     const bool is_at_rest = random_below(&random, 2);
     const Pluck pluck = {random_between(&random, 0.0, 1.0), random_between(&random, 0.0, 1.0),
-                         played.amplitude};
+                         played.amplitude, 0.0};
     hammers_shake(&played.strung, &random, is_at_rest ? 0.0 : played.amplitude);
     look(&played);
     before = *played.current;

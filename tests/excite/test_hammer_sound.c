@@ -39,7 +39,7 @@ static void strikes_are_as_loud_as_plucks(void** state) {
           uint32_t n_pressed = 0;
           strung_key(&strung, memory, key, strung_rate_hz(c / 8), limits[c % 8], 1e9);
           const double hardness = 0.5 * (double)(s % 3);
-          pluck_pull(&strung.chain, (Pluck){places[p], hardness, amplitudes[s / 3]});
+          pluck_pull(&strung.chain, (Pluck){places[p], hardness, amplitudes[s / 3], 0.0});
           const double plucked = strung_fundamental(&strung);
           chain_rest(&strung.chain);
           hammers_strike(&strung, (Strike){places[p], hardness, masses[m], amplitudes[s / 3]},

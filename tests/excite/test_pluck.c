@@ -94,7 +94,7 @@ static void fundamental_is_that_of_the_ideal_string(void** state) {
           const double f0_hz = limits[l] <= 20 ? 110.0 : 20.0;
           const double angle = string_up(&chain, rates_hz[r], f0_hz, limits[l]);
           const double w = width_of(chain.n_masses, is_hard ? HARDEST : SOFTEST);
-          pluck_pull(&chain, (Pluck){place, is_hard, 0.25});
+          pluck_pull(&chain, (Pluck){place, is_hard, 0.25, 0.0});
           const double amplitude = ringing_amplitude(&chain, angle, (int)(2.0 * PI / angle));
           if (place > w && place < 1.0 - w) {
             const double ideal = 4.0 / PI * 0.25 * sin(PI * place) * finger(w);
@@ -124,7 +124,7 @@ static void one_mass_is_plucked_wherever_one_plucks(void** state) {
     const double place = 0.25 * quarter;
     Chain chain;
     const double angle = string_up(&chain, 48000.0, 1000.0, 1);
-    pluck_pull(&chain, (Pluck){place, 0.5, 0.25});
+    pluck_pull(&chain, (Pluck){place, 0.5, 0.25, 0.0});
     assert_within("amplitude, relative",
                   fabs(ringing_amplitude(&chain, angle, 480) / (4.0 / PI * 0.25) - 1.0), 1e-5);
   }
@@ -160,7 +160,7 @@ static void partials_are_those_of_a_string_pulled_aside(void** state) {
     Chain chain;
     double worst = 0.0;
     string_of(&chain, 1000, PARTIALS_LUMPED, 0.0);
-    pluck_pull(&chain, (Pluck){places[p], 1.0, 0.25});
+    pluck_pull(&chain, (Pluck){places[p], 1.0, 0.25, 0.0});
     for (uint32_t k = 1; k <= 30; ++k) {
       const double ideal =
           4.0 / PI * 0.25 * sin(PI * k * places[p]) / (k * k) * finger(k * HARDEST);
@@ -179,7 +179,7 @@ static void string_gives_way_until_its_springs_hold_the_finger(void** state) {
     for (int b = 0; b < 9; ++b) {
       Chain chain;
       string_of(&chain, n, (Partials)(b % 3), inharmonicities[b / 3]);
-      pluck_pull(&chain, (Pluck){0.29, 0.7, 0.25});
+      pluck_pull(&chain, (Pluck){0.29, 0.7, 0.25, 0.0});
       const double first = partial(&chain, 1, chain_position);
       for (uint32_t k = 1; k <= n; ++k) {
         const double force = 2.0 * partial(&chain, k, chain_velocity);
@@ -197,7 +197,7 @@ static void string_is_let_go_from_rest(void** state) {
   (void)state;
   Chain chain;
   const double angle = string_up(&chain, 48000.0, 110.0, 100);
-  pluck_pull(&chain, (Pluck){0.2, 0.5, 0.25});
+  pluck_pull(&chain, (Pluck){0.2, 0.5, 0.25, 0.0});
   const double amplitude = fundamental(&chain);
   double worst = 0.0;
   for (int n = 0; n < 1000; ++n) {
@@ -216,7 +216,7 @@ static uint32_t brightness(double hardness) {
   double most = 0.0;
   double partials[N + 1];
   string_of(&chain, N, PARTIALS_LUMPED, 0.0);
-  pluck_pull(&chain, (Pluck){0.37, hardness, 0.25});
+  pluck_pull(&chain, (Pluck){0.37, hardness, 0.25, 0.0});
   for (uint32_t k = 1; k <= N; ++k) {
     partials[k] = fabs(partial(&chain, k, chain_velocity));
     most = fmax(most, partials[k]);
@@ -250,7 +250,7 @@ static void flipping_mode_is_left_alone(void** state) {
       double sum = 0.0;
       double most = 0.0;
       string_of(&chain, n, PARTIALS_LUMPED, 0.0);
-      pluck_pull(&chain, (Pluck){place, 1.0, 0.25});
+      pluck_pull(&chain, (Pluck){place, 1.0, 0.25, 0.0});
       for (uint32_t i = 0; i < n; ++i) {
         sum += (i % 2 ? -1.0 : 1.0) * (double)chain_velocity(&chain, i);
         most += (double)chain_velocity(&chain, i);
@@ -274,7 +274,7 @@ static void string_is_pulled_to_a_corner_and_no_farther(void** state) {
     double peak = 0.0;
     /* 48000/2/F is 100.04: all but a Courant number of 1, where the scheme is exact. */
     (void)string_up(&chain, 48000.0, 239.9, 99);
-    pluck_pull(&chain, (Pluck){place, 1.0, 0.25});
+    pluck_pull(&chain, (Pluck){place, 1.0, 0.25, 0.0});
     worst = fmax(worst,
                  fabs((double)chain_position(&chain, (uint32_t)(10 * tenth - 1)) / corner - 1.0));
     for (int n = 0; n < 400; ++n) {
@@ -290,6 +290,38 @@ static void string_is_pulled_to_a_corner_and_no_farther(void** state) {
   assert_within("farthest, of the corner", farthest, 1.01);
 }
 
+/* Heard in displacement, a push is what a pull is in velocity: as loud in all partials, each a
+ * quarter of its period apart. */
+static void push_is_heard_as_the_velocity_of_a_pull(void** state) {
+  (void)state;
+  enum { N = 90 };
+  Chain chain;
+  double worst = 0.0;
+  string_of(&chain, N, PARTIALS_TRUEST, 0.0);
+  const double angle1 = pole_angle(tuning_mode(chain.now, N, 1));
+  for (int p = 0; p < 9; ++p) {
+    const Pluck pluck = {0.09 * p + 0.1, 0.125 * p, 0.25, 0.0};
+    chain_rest(&chain);
+    (void)pluck_pull(&chain, pluck);
+    double pulled[21];
+    for (uint32_t k = 1; k <= 20; ++k) {
+      pulled[k] = partial(&chain, k, chain_position);
+    }
+    chain_rest(&chain);
+    const double given = pluck_push(&chain, pluck);
+    assert_true(fabs(given / chain_energy(&chain) - 1.0) < 1e-9);
+    for (uint32_t k = 1; k <= 20; ++k) {
+      const double angle = pole_angle(tuning_mode(chain.now, N, k));
+      const double pushed = partial(&chain, k, chain_velocity) / sin(angle);
+      /* Velocity, the fundamental's as large as its displacement: centred, so by the sines. */
+      const double velocity = pulled[k] * (2.0 - 2.0 * cos(angle)) / (2.0 - 2.0 * cos(angle1)) *
+                              sin(angle1) / sin(angle);
+      worst = fmax(worst, fabs(pushed - velocity) / 0.25);
+    }
+  }
+  assert_within("partials, of the amplitude", worst, 1e-5);
+}
+
 static void pull_adds_to_what_rings(void** state) {
   (void)state;
   enum { N = 60 };
@@ -297,7 +329,7 @@ static void pull_adds_to_what_rings(void** state) {
   float velocities[N];
   Chain chain;
   (void)string_up(&chain, 48000.0, 200.0, N);
-  pluck_pull(&chain, (Pluck){0.2, 0.4, 0.25});
+  pluck_pull(&chain, (Pluck){0.2, 0.4, 0.25, 0.0});
   for (int n = 0; n < 500; ++n) {
     step(&chain);
   }
@@ -306,13 +338,13 @@ static void pull_adds_to_what_rings(void** state) {
     velocities[i] = chain_velocity(&chain, i);
   }
   const double before = chain_energy(&chain);
-  const double given = pluck_pull(&chain, (Pluck){0.6, 0.8, -0.1});
+  const double given = pluck_pull(&chain, (Pluck){0.6, 0.8, -0.1, 0.0});
   assert_true(fabs(chain_energy(&chain) - before - given) < 1e-12 * before);
   Chain alone;
   static _Alignas(CHAIN_ALIGNMENT) char other_memory[32 * CHAIN_MAX_MASSES];
   chain_init(&alone, chain_kernel(0), other_memory, N);
   chain_set(&alone, chain.now);
-  (void)pluck_pull(&alone, (Pluck){0.6, 0.8, -0.1});
+  (void)pluck_pull(&alone, (Pluck){0.6, 0.8, -0.1, 0.0});
   for (uint32_t i = 0; i < N; ++i) {
     assert_true(fabsf(chain_position(&chain, i) - positions[i] - chain_position(&alone, i)) <=
                 FLT_EPSILON);
@@ -332,6 +364,7 @@ int main(void) {
       cmocka_unit_test(harder_is_brighter),
       cmocka_unit_test(flipping_mode_is_left_alone),
       cmocka_unit_test(string_is_pulled_to_a_corner_and_no_farther),
+      cmocka_unit_test(push_is_heard_as_the_velocity_of_a_pull),
       cmocka_unit_test(pull_adds_to_what_rings),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -96,7 +96,7 @@ static Pluck any_pluck(Random* random) {
       random_below(random, 4) ? random_between(random, 0.0, 1.0) : 0.25 * random_below(random, 5);
   const double hardness =
       random_below(random, 4) ? random_between(random, 0.0, 1.0) : 0.5 * random_below(random, 3);
-  return (Pluck){place, hardness, random_log_between(random, 1e-3, 0.25)};
+  return (Pluck){place, hardness, random_log_between(random, 1e-3, 0.25), 0.0};
 }
 
 static Strung any_string(Random* random, uint32_t least, uint32_t most) {
@@ -140,7 +140,7 @@ static void plucks_as_wide_as_a_mode_give_what_is_told(void** state) {
     strung_key(&strung, memory, 33, RATE, n_masses, 1e9);
     assert_int_equal(strung.chain.n_masses, n_masses);
     for (int p = 1; p <= 4; ++p) {
-      worst = fmax(worst, pluck_and_tell(&strung, (Pluck){0.1 * p + 0.02, 1.0, 0.1}));
+      worst = fmax(worst, pluck_and_tell(&strung, (Pluck){0.1 * p + 0.02, 1.0, 0.1, 0.0}));
     }
   }
   assert_within("pulls, off, of the largest", worst, 0.04);

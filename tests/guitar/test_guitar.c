@@ -153,7 +153,7 @@ static void dead_string_sleeps_in_exact_zeros(void** state) {
   assert_true(chain_size(GUITAR_MAX_MASSES) <= sizeof(memory));
   guitar_string_init(&string, &patch, RATE_HZ, 0, memory);
   string.open = 45.0;
-  guitar_string_pluck(&string, (Pluck){0.3, 0.5, 0.25});
+  guitar_string_pluck(&string, (Pluck){0.3, 0.5, 0.25, 0.0});
   assert_true(string.voice.is_awake);
   while (string.voice.is_awake && n_frames < 100000) {
     guitar_string_run(&string, &gains, 16, none);

@@ -21,7 +21,7 @@ static void play(const GuitarGains gains[N_BLOCKS], float out[N]) {
   assert_true(chain_size(GUITAR_MAX_MASSES) <= sizeof(memory));
   guitar_string_init(&string, &patch, 48e3, 0, memory);
   string.open = 45.0;
-  guitar_string_pluck(&string, (Pluck){0.3, 0.5, 0.25});
+  guitar_string_pluck(&string, (Pluck){0.3, 0.5, 0.25, 0.0});
   for (int block = 0; block < N_BLOCKS; ++block) {
     if (block == 2) {
       guitar_string_slide(&string, 5.0, 400);

@@ -40,16 +40,16 @@ static void what_is_no_number_leaves_no_string(void** state) {
     guitar_string_init(&tails[w], &patch, RATE, w, memory + (size_t)(2 * w + 1) * ROOM);
     strings[w].open = 45.0 + 5.0 * (w % GUITAR_STRINGS);
   }
-  guitar_string_pluck(&strings[0], (Pluck){0.13, 0.5, 0.25});
+  guitar_string_pluck(&strings[0], (Pluck){0.13, 0.5, 0.25, 0.0});
   const double as_new = peak_after(&mixer);
   assert_true(as_new > 0.01);
   for (int i = 0; i < 3; ++i) {
     chain_place(&strings[0].voice.chain, 5, others[i], others[i]);
-    guitar_string_pluck(&strings[1], (Pluck){0.13, 0.5, 0.25});
+    guitar_string_pluck(&strings[1], (Pluck){0.13, 0.5, 0.25, 0.0});
     assert_true(peak_after(&mixer) > 0.01); /* The others go on */
     assert_false(strings[0].voice.is_awake);
     guitar_string_reset(&strings[1]);
-    guitar_string_pluck(&strings[0], (Pluck){0.13, 0.5, 0.25});
+    guitar_string_pluck(&strings[0], (Pluck){0.13, 0.5, 0.25, 0.0});
     assert_true(fabs(peak_after(&mixer) / as_new - 1.0) < 1e-3);
   }
 }

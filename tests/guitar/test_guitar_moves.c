@@ -68,7 +68,7 @@ static double kept(double open, double from, double to, bool is_bent, uint32_t n
     solo_start(&solo, open);
     guitar_string_slide(&solo.string, is_bent ? 0.0 : from, 0);
     guitar_string_bend(&solo.string, is_bent ? from : 0.0, 0);
-    guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 0.25});
+    guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 0.25, 0.0});
     solo_run(&solo, 1000 + 53 * i);
     const double before = amplitude_of(&solo);
     if (is_bent) {
@@ -112,12 +112,12 @@ static void pluck_in_a_gesture_is_as_loud(void** state) {
       Solo solo;
       solo_start(&solo, 64.0);
       guitar_string_slide(&solo.string, is_moving == way ? 12.0 : 0.0, 0);
-      guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 1e-6});
+      guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 1e-6, 0.0});
       solo_run(&solo, 1000);
       if (is_moving) {
         guitar_string_slide(&solo.string, way ? 0.0 : 12.0, GESTURE);
       }
-      guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 0.25});
+      guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 0.25, 0.0});
       solo_run(&solo, 4 * GESTURE);
       motion[is_moving] = amplitude_of(&solo);
     }
@@ -135,7 +135,7 @@ static void places_stay_when_strings_are_fretted(void** state) {
   solo.patch.capo = 7.0;
   assert_within("off twice", fabs(guitar_string_place(&solo.string, 0.2) - 0.4), 1e-12);
   assert_true(guitar_string_place(&solo.string, 0.46) == GUITAR_FARTHEST);
-  guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 0.25});
+  guitar_string_pluck(&solo.string, (Pluck){0.5, 0.3, 0.25, 0.0});
   assert_within("read off it", fabs(solo.string.pickups.heard[0].place - 0.2), 1e-12);
 }
 

@@ -82,7 +82,7 @@ static bool is_at_its_most(const Harp* harp, const HarpPatch* patch, uint32_t ke
   const TuningTarget target = string_patch_target(&patch->string, harp->rate_hz, semitones,
                                                   string_patch_pitch_hz(&patch->string, semitones));
   const HarpBalance balance = {target, voice->chain.n_masses, key, 0.25};
-  const Pluck pluck = {patch->pluck, patch->hardness, 0.1};
+  const Pluck pluck = {patch->pluck, patch->hardness, 0.1, 0.0};
   return voice->is_awake && harp_balance_gain(patch, &balance, pluck) > 0.99 * HARP_BALANCE_MOST;
 }
 

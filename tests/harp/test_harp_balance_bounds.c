@@ -86,7 +86,7 @@ static void gains_of_one_mass_are_those_by_hand(void** state) {
     patch.string.tracking = random_between(&random, 0.0, 1.0);
     patch.string.max_masses = 1;
     const HarpBalance string = string_of(&patch, 48000.0, 9 + random_below(&random, 88));
-    const Pluck pluck = {random_between(&random, 0.0, 1.0), 0.5, 0.1};
+    const Pluck pluck = {random_between(&random, 0.0, 1.0), 0.5, 0.1, 0.0};
     if (2.0 * PI * string.target.tone.f0_hz * string.target.tone.tau_s < LEAST_SWING) {
       continue;
     }
@@ -113,7 +113,7 @@ static void gains_are_bounded(void** state) {
     patch.string.damping_per_s = random_log_between(&random, 0.02, 200.0);
     patch.string.max_masses = 1 + random_below(&random, random_below(&random, 2) ? 5 : 1024);
     const HarpBalance string = string_of(&patch, 48000.0, random_below(&random, 128));
-    const Pluck pluck = {patch.pluck, patch.hardness, random_log_between(&random, 1e-5, 0.25)};
+    const Pluck pluck = {patch.pluck, patch.hardness, random_log_between(&random, 1e-5, 0.25), 0.0};
     const double gain = harp_balance_gain(&patch, &string, pluck);
     assert_true(gain >= 1.0 / HARP_BALANCE_MOST && gain <= HARP_BALANCE_MOST);
   }

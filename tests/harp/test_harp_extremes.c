@@ -60,7 +60,7 @@ static void pluck(Case* c) {
   assert_true(chain_size(CHAIN_MAX_MASSES) <= sizeof(memory));
   c->patch = settings_patch(&c->setting);
   harp_string_init(&c->string, &c->patch, c->rate_hz, c->key, memory, CHAIN_MAX_MASSES, NULL);
-  const Pluck hardest = {c->patch.pluck, c->patch.hardness, HARP_NOTE_PEAK};
+  const Pluck hardest = {c->patch.pluck, c->patch.hardness, HARP_NOTE_PEAK, 0.0};
   harp_string_play(&c->string, hardest, 0);
 }
 

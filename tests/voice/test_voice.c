@@ -42,7 +42,7 @@ static void ring(Voice* voice, double f0_hz, double tau_s) {
   const VoiceAim aim = aim_of(f0_hz, tau_s);
   lay(voice);
   assert_true(voice_string(voice, &aim, CAPACITY, 0));
-  voice_pluck(voice, (Pluck){0.3, 0.3, 0.25});
+  voice_pluck(voice, (Pluck){0.3, 0.3, 0.25, 0.0});
 }
 
 static Tone tone_of(const Voice* voice) {
@@ -166,7 +166,7 @@ static void its_energy_is_what_played_it(void** state) {
       const double hardness = random_between(&random, 0.0, 1.0);
       switch (deed == 0 ? 0 : random_below(&random, 5)) {
       case 0:
-        voice_pluck(&voice, (Pluck){place, hardness, 0.1});
+        voice_pluck(&voice, (Pluck){place, hardness, 0.1, 0.0});
         break;
       case 1:
         voice_strike(&voice, (Strike){0.4, hardness, 0.25, 0.1});
@@ -199,7 +199,7 @@ static void movement_gives_no_work(void** state) {
   Voice voice;
   lay(&voice);
   assert_true(voice_string(&voice, &low, CAPACITY, 0));
-  voice_pluck(&voice, (Pluck){0.3, 0.3, 0.25});
+  voice_pluck(&voice, (Pluck){0.3, 0.3, 0.25, 0.0});
   const double given = voice_work(&voice);
   assert_within("of what it was given", fabs(voice_energy(&voice) / given - 1.0), 1e-5);
   double worst = 0.0;

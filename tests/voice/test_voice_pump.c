@@ -79,7 +79,7 @@ static void run(Voice* voice, uint32_t n_frames) {
 static void play(Voice* voice, Played played, const TuningTarget* target) {
   switch (played) {
   case PLUCKED:
-    voice_pluck(voice, (Pluck){0.13, 0.5, 0.2});
+    voice_pluck(voice, (Pluck){0.13, 0.5, 0.2, 0.0});
     break;
   case STRUCK:
     voice_strike(voice, (Strike){0.12, 0.5, 0.25, 0.2});
@@ -200,7 +200,7 @@ static void bends_neither_feed_nor_starve_it(void** state) {
       aims[0].open.tone.tau_s = aims[1].open.tone.tau_s = HUGE_VAL;
       voice_init(&voice, RATE_HZ, 3, memory, CAPACITY, (VoiceOwner){0}, NULL);
       assert_true(voice_string(&voice, &aims[0], 24, 0));
-      voice_pluck(&voice, (Pluck){0.3, 0.0, 0.2});
+      voice_pluck(&voice, (Pluck){0.3, 0.0, 0.2, 0.0});
       const double before = voice_energy(&voice) * square_per_energy(&voice);
       for (uint32_t done = 0, i = 0; done < n_frames; done += period, ++i) {
         voice_aim(&voice, &aims[i % 2], 192);
@@ -233,7 +233,7 @@ static void what_is_no_number_is_mended(void** state) {
     voice_mend(&voice);
     assert_false(voice.is_awake || voice_is_touched(&voice));
     assert_true(voice_string(&voice, &aim, 24, 0));
-    voice_pluck(&voice, (Pluck){0.3, 0.5, 0.2});
+    voice_pluck(&voice, (Pluck){0.3, 0.5, 0.2, 0.0});
     run(&voice, 1000);
     const double square = voice_energy(&voice) * square_per_energy(&voice);
     assert_true(square > 1e-3 && square < 1.0);
