@@ -34,7 +34,7 @@
   X(TUNING, tuning, 17, 400.0f, 480.0f, 440.0f)                                                    \
   X(PARTIALS, partials, 21, 0.0f, 2.0f, 2.0f)                                                      \
   X(EXCITER, exciter, 22, 0.0f, 2.0f, 0.0f)                                                        \
-  X(SENSE, sense, 23, 0.0f, 2.0f, 0.0f)                                                            \
+  X(SENSE, sense, 23, 0.0f, 2.0f, 1.0f)                                                            \
   X(LIMITER, limiter, 24, 0.0f, 1.0f, 1.0f)                                                        \
   X(RESONANCE, resonance, 25, 0.0f, 1.0f, 0.0f)                                                    \
   X(VIBRATO_RATE, vibrato_rate, 26, 0.5f, 12.0f, 5.5f)

@@ -46,7 +46,7 @@ static void set_touch(Harp* harp, uint32_t channel, double* what, double value) 
 
 static void set_level(Harp* harp, uint32_t n_frames) {
   line_to(&harp->level, harp->patch.level, n_frames);
-  line_to(&harp->stereo.spread, harp->patch.spread, n_frames);
+  harp_stereo_set(&harp->stereo, harp->patch.spread, n_frames);
 }
 
 /* A scale may give any key any pitch, so all strings have the same memory. */

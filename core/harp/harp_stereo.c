@@ -20,14 +20,20 @@ void harp_stereo_reset(HarpStereo* stereo) {
   memset(stereo->past, 0, (2 * stereo->n_delay + HARP_STEREO_FRAMES) * sizeof(float));
 }
 
+void harp_stereo_set(HarpStereo* stereo, double spread, uint32_t n_frames) {
+  line_to(&stereo->spread, spread, n_frames);
+  line_to(&stereo->late, spread > 0.0 ? 1.0 : 0.0, n_frames);
+}
+
 /* What the spread is in a frame. */
 typedef struct {
-  float late; /* Share of what is heard that is late, 0 to 1 */
+  float late;
   float half; /* ½ s */
 } Gains;
 
-static Gains gains_of(double spread) {
-  return (Gains){(float)fmin(1.0, spread / HARP_STEREO_LEAST), 0.5f * (float)spread};
+static Gains gains_now(HarpStereo* stereo) {
+  const float spread = (float)line_next(&stereo->spread);
+  return (Gains){(float)line_next(&stereo->late), 0.5f * spread};
 }
 
 static void spread_frame(const HarpStereo* stereo, Gains g, uint32_t n, float* left, float* right) {
@@ -43,14 +49,13 @@ static void spread_frame(const HarpStereo* stereo, Gains g, uint32_t n, float* l
 void harp_stereo_run(
     HarpStereo* stereo, const float* read, uint32_t n_frames, float* left, float* right) {
   const uint32_t n_past = 2 * stereo->n_delay;
-  Line* const spread = &stereo->spread;
   memcpy(stereo->past + n_past, read, n_frames * sizeof(float));
-  if (spread->n_left > 0) {
+  if (stereo->spread.n_left > 0) {
     for (uint32_t n = 0; n < n_frames; ++n) {
-      spread_frame(stereo, gains_of(line_next(spread)), n, left, right);
+      spread_frame(stereo, gains_now(stereo), n, left, right);
     }
-  } else if (spread->value > 0.0) {
-    const Gains gains = gains_of(spread->value);
+  } else if (stereo->spread.value > 0.0) {
+    const Gains gains = gains_now(stereo);
     for (uint32_t n = 0; n < n_frames; ++n) {
       spread_frame(stereo, gains, n, left, right);
     }

@@ -26,15 +26,13 @@
 /** d [s]. */
 #define HARP_STEREO_S 0.0005
 
-/** Spread from which on all is late by d; from none to there what is late is faded in. */
-#define HARP_STEREO_LEAST 0.02
-
 enum { HARP_STEREO_FRAMES = 256 /**< Most at a time */ };
 
 typedef struct {
   float* past;      /**< The last 2d frames, and room for those of a run; owned */
   uint32_t n_delay; /**< d [frames] */
   Line spread;      /**< s, 0 to 0.5 */
+  Line late;        /**< Share of what is heard that is late: 0 without spread, else 1 */
 } HarpStereo;
 
 /** False if there is no memory. */
@@ -45,6 +43,9 @@ void harp_stereo_free(HarpStereo* stereo);
 
 /** Forget what was read. */
 void harp_stereo_reset(HarpStereo* stereo);
+
+/** Bring it to a spread in `n_frames`; 0: at once. */
+void harp_stereo_set(HarpStereo* stereo, double spread, uint32_t n_frames);
 
 /** @param read  n_frames ≤ HARP_STEREO_FRAMES of what was read; may be `left` */
 void harp_stereo_run(

@@ -40,7 +40,7 @@ static const Pin pinned[] = {
     {"headroom", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 1.0f},
     {"partials", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 2.0f},
     {"exciter", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 0.0f},
-    {"sense", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 0.0f},
+    {"sense", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 1.0f},
     {"limiter", PIN_IN, PIN_VALUE, NULL, PIN_TOGGLED, 0.0f, 1.0f, 1.0f},
     {"resonance", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
     {"vibrato_rate", PIN_IN, PIN_VALUE, NULL, PIN_LOGARITHMIC, 0.5f, 12.0f, 5.5f},
