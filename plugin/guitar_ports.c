@@ -27,6 +27,7 @@ static StringPatch string_patch(const float* v) {
       .partials = (Partials)ports_whole(v[GUITAR_PORT_PARTIALS]),
       .release_s = (double)v[GUITAR_PORT_RELEASE],
       .release_tracking = (double)v[GUITAR_PORT_RELEASE_TRACKING],
+      .tension = (double)v[GUITAR_PORT_TENSION],
       .tuning_hz = (double)v[GUITAR_PORT_TUNING],
       .max_masses = ports_whole(v[GUITAR_PORT_MASSES]),
   };

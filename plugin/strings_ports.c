@@ -24,6 +24,7 @@ HarpPatch strings_ports_patch(const Controls* controls) {
               .partials = (Partials)ports_whole(v[STRINGS_PORT_PARTIALS]),
               .release_s = (double)v[STRINGS_PORT_RELEASE],
               .release_tracking = (double)v[STRINGS_PORT_RELEASE_TRACKING],
+              .tension = (double)v[STRINGS_PORT_TENSION],
               .tuning_hz = (double)v[STRINGS_PORT_TUNING],
               .max_masses = ports_whole(v[STRINGS_PORT_MASSES]),
           },

@@ -66,6 +66,7 @@ static VoiceAim aim_of(const GuitarString* string) {
   return (VoiceAim){
       .open = under_palm(patch, free_target(string, note, bent_hz)),
       .damper_s = string->damper == GUITAR_DAMPED ? release_s : 0.0,
+      .tension = patch->string.tension,
   };
 }
 

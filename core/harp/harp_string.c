@@ -56,7 +56,8 @@ static VoiceAim aim_at(const HarpString* string, double f0_hz) {
   TuningTarget open =
       string_patch_target(&string->patch->string, string->voice.rate_hz, semitones, f0_hz);
   open.loss = loss_of(string, open.loss);
-  return (VoiceAim){open, damper_of(string, semitones, open.tone.tau_s), hold_of(string, f0_hz)};
+  return (VoiceAim){open, damper_of(string, semitones, open.tone.tau_s), hold_of(string, f0_hz),
+                    string->patch->string.tension};
 }
 
 static double pressure_of(const HarpString* string) {

@@ -19,7 +19,7 @@ bool string_patch_rings_alike(const StringPatch* a, const StringPatch* b) {
          a->loss_tracking == b->loss_tracking && a->inharmonicity == b->inharmonicity &&
          a->inharmonicity_tracking == b->inharmonicity_tracking && a->partials == b->partials &&
          a->release_s == b->release_s && a->release_tracking == b->release_tracking &&
-         a->tuning_hz == b->tuning_hz;
+         a->tension == b->tension && a->tuning_hz == b->tuning_hz;
 }
 
 double string_patch_pitch_hz(const StringPatch* patch, double semitones) {

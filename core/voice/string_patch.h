@@ -25,6 +25,7 @@ typedef struct {
   double release_s; /**< τ once the key is up [s], > 0; a damper never makes a string ring longer */
   double release_tracking; /**< That of a note is release_s · 2^(−release_tracking (note − 69)/12),
                               which it takes to 5 ms at least */
+  double tension;          /**< Cents that a string is sharp by at TENSION_AMPLITUDE, ≥ 0 */
   double tuning_hz;        /**< A4 [Hz], > 0 */
   uint32_t max_masses;     /**< Most masses of a string, ≥ 1 */
 } StringPatch;

@@ -148,6 +148,7 @@ static void every_port_is_heard(void** state) {
       {"enabled", 0.0},
       {"loss_tracking", 2.0},
       {"release_tracking", 1.0},
+      {"tension", 10.0},
   };
   (void)state;
   Host* const host = guitar_open(RATE, BLOCK);

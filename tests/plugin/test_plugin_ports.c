@@ -48,6 +48,7 @@ static const Pin pinned[] = {
     {"loss_tracking", PIN_IN, PIN_VALUE, NULL, 0, -2.0f, 4.0f, 0.0f},
     {"stiffness_tracking", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 4.0f, 0.0f},
     {"release_tracking", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 2.0f, 0.0f},
+    {"tension", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 100.0f, 0.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };

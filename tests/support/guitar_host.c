@@ -47,6 +47,7 @@ GuitarPatch guitar_patch_of(const Host* host) {
               .partials = (Partials)port(host, "partials"),
               .release_s = port(host, "release"),
               .release_tracking = port(host, "release_tracking"),
+              .tension = port(host, "tension"),
               .tuning_hz = port(host, "tuning"),
               .max_masses = (uint32_t)port(host, "masses"),
           },

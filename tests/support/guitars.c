@@ -72,6 +72,7 @@ static GuitarPatch draw_patch(Random* random) {
   p->partials = (Partials)random_below(random, 3);
   p->loss_tracking = random_below(random, 2) ? 0.0 : draw(random, -2.0, 4.0);
   p->inharmonicity_tracking = random_below(random, 2) ? 0.0 : draw(random, 0.0, 4.0);
+  p->tension = random_below(random, 2) ? 0.0 : draw(random, 0.0, 100.0);
   p->release_tracking = random_below(random, 2) ? 0.0 : draw(random, 0.0, 2.0);
   patch.pluck = draw(random, 0.0, 1.0);
   patch.hardness = draw(random, 0.0, 1.0);

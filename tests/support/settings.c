@@ -35,6 +35,7 @@ static const Range* range_of(SettingName name) {
       [SETTING_LOSS_TRACKING] = STRINGS_PORT_LOSS_TRACKING,
       [SETTING_STIFFNESS_TRACKING] = STRINGS_PORT_STIFFNESS_TRACKING,
       [SETTING_RELEASE_TRACKING] = STRINGS_PORT_RELEASE_TRACKING,
+      [SETTING_TENSION] = STRINGS_PORT_TENSION,
   };
   return &ranges[ports[name]];
 }
@@ -88,6 +89,7 @@ HarpPatch settings_patch(const Setting* setting) {
       .hardness = v[SETTING_HARDNESS],
       .string.release_s = v[SETTING_RELEASE],
       .string.release_tracking = v[SETTING_RELEASE_TRACKING],
+      .string.tension = v[SETTING_TENSION],
       .string.tuning_hz = v[SETTING_TUNING],
       .string.max_masses = (uint32_t)lround(v[SETTING_MASSES]),
   };

@@ -159,13 +159,14 @@ static void what_follows_by_nothing_is_what_it_is_set_to(void** state) {
 }
 
 /* What rings hears of each. */
-static void another_tracking_does_not_ring_alike(void** state) {
+static void another_tracking_or_tension_does_not_ring_alike(void** state) {
   (void)state;
-  StringPatch others[] = {USUAL, USUAL, USUAL, USUAL};
+  StringPatch others[] = {USUAL, USUAL, USUAL, USUAL, USUAL};
   others[1].loss_tracking = 1e-6;
   others[2].inharmonicity_tracking = 1e-6;
   others[3].release_tracking = 1e-6;
-  for (int i = 0; i < 4; ++i) {
+  others[4].tension = 1e-6;
+  for (int i = 0; i < 5; ++i) {
     assert_int_equal(string_patch_rings_alike(&USUAL, &others[i]), i == 0);
   }
 }
@@ -192,7 +193,7 @@ int main(void) {
       cmocka_unit_test(stiffness_follows_the_key_as_printed),
       cmocka_unit_test(release_follows_the_key_as_printed),
       cmocka_unit_test(what_follows_by_nothing_is_what_it_is_set_to),
-      cmocka_unit_test(another_tracking_does_not_ring_alike),
+      cmocka_unit_test(another_tracking_or_tension_does_not_ring_alike),
       cmocka_unit_test(keys_follow_a4_in_equal_steps),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
