@@ -21,9 +21,13 @@ static StringPatch string_patch(const float* v) {
       .damping_per_s = (double)v[GUITAR_PORT_DAMPING],
       .tracking = (double)v[GUITAR_PORT_TRACKING],
       .loss = ports_above(v[GUITAR_PORT_LOSS], 1e-5f),
+      .loss_tracking = (double)v[GUITAR_PORT_LOSS_TRACKING],
       .inharmonicity = ports_above(v[GUITAR_PORT_STIFFNESS], 1e-6f),
+      .inharmonicity_tracking = (double)v[GUITAR_PORT_STIFFNESS_TRACKING],
       .partials = (Partials)ports_whole(v[GUITAR_PORT_PARTIALS]),
       .release_s = (double)v[GUITAR_PORT_RELEASE],
+      .release_tracking = (double)v[GUITAR_PORT_RELEASE_TRACKING],
+      .tension = (double)v[GUITAR_PORT_TENSION],
       .tuning_hz = (double)v[GUITAR_PORT_TUNING],
       .max_masses = ports_whole(v[GUITAR_PORT_MASSES]),
   };

@@ -62,9 +62,11 @@ static VoiceAim aim_of(const GuitarString* string) {
   const double note = open_note(string) + patch->capo + motion->slide.value;
   const double f0_hz = patch->is_uncorrected ? uncorrected_hz(string) : pitch_hz(string, note);
   const double bent_hz = f0_hz * exp2(motion_bend(motion) / 12.0);
+  const double release_s = string_patch_release_s(&patch->string, note - 69.0);
   return (VoiceAim){
       .open = under_palm(patch, free_target(string, note, bent_hz)),
-      .damper_s = string->damper == GUITAR_DAMPED ? patch->string.release_s : 0.0,
+      .damper_s = string->damper == GUITAR_DAMPED ? release_s : 0.0,
+      .tension = patch->string.tension,
   };
 }
 

@@ -26,9 +26,9 @@ double harp_string_pitch_hz(const HarpString* string) {
   return string_patch_pitch_hz(&string->patch->string, string->semitones + string->touch.bend);
 }
 
-/* What is between the masses when the channel makes the string brighter, or darker. */
-static double loss_of(const HarpString* string) {
-  const double loss = string->patch->string.loss;
+/* What is left of the loss between the masses when the channel makes the string brighter, or
+ * darker. */
+static double loss_of(const HarpString* string, double loss) {
   const double brightness = string->touch.brightness;
   if (brightness >= 0.0) {
     return loss * pow(BRIGHTEST_LOSS, brightness);
@@ -36,8 +36,9 @@ static double loss_of(const HarpString* string) {
   return pow(fmax(loss, LEAST_DARK_LOSS), 1.0 + DARKEST_LOSS * brightness);
 }
 
-static double damper_of(const HarpString* string, double open_s) {
-  const double shut_s = fmin(open_s, string->patch->string.release_s);
+static double damper_of(const HarpString* string, double semitones, double open_s) {
+  const double release_s = string_patch_release_s(&string->patch->string, semitones);
+  const double shut_s = fmin(open_s, release_s);
   return string->lift < 1.0 ? shut_s * pow(open_s / shut_s, string->lift) : 0.0;
 }
 
@@ -57,8 +58,9 @@ static VoiceAim aim_at(const HarpString* string, double f0_hz) {
   const double semitones = (double)string->key - 69.0;
   TuningTarget open =
       string_patch_target(&string->patch->string, string->voice.rate_hz, semitones, f0_hz);
-  open.loss = loss_of(string);
-  return (VoiceAim){open, damper_of(string, open.tone.tau_s), hold_of(string, f0_hz)};
+  open.loss = loss_of(string, open.loss);
+  return (VoiceAim){open, damper_of(string, semitones, open.tone.tau_s), hold_of(string, f0_hz),
+                    string->patch->string.tension};
 }
 
 static double pressure_of(const HarpString* string) {

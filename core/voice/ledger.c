@@ -24,6 +24,10 @@ static void age(Ledger* ledger, const Chain* chain, double square) {
   ledger->n_unseen = 0;
 }
 
+double ledger_square(const Chain* chain) {
+  return chain_energy(chain) * per_energy(chain);
+}
+
 void ledger_credit(Ledger* ledger, const Chain* chain, double work) {
   ledger->work += work;
   ledger->given += work * per_energy(chain);
@@ -34,7 +38,7 @@ void ledger_lend(Ledger* ledger, double square) {
 }
 
 double ledger_settle(Ledger* ledger, const Chain* chain) {
-  const double square = chain_energy(chain) * per_energy(chain);
+  const double square = ledger_square(chain);
   age(ledger, chain, square);
   const double most = MOST_MORE * fmax(ledger->given, ledger->lent);
   return square > most ? fmax(most / square, LEDGER_LEAST_KEPT) : 1.0;

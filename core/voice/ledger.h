@@ -26,6 +26,9 @@ typedef struct {
   uint32_t n_unseen; /**< Frames since these were last seen to */
 } Ledger;
 
+/** The square of the amplitude that a chain's fundamental would have with all of its energy. */
+double ledger_square(const Chain* chain);
+
 /** Work was done on the chain; less than 0: it was taken. */
 void ledger_credit(Ledger* ledger, const Chain* chain, double work);
 

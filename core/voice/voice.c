@@ -130,11 +130,20 @@ static BridgeHold hold_of(const Voice* voice, const VoiceAim* aim) {
   return voice->bridge && !voice->is_choked ? aim->hold : (BridgeHold){0};
 }
 
+/* As retune_tied(), but sharp of its own motion; at its pitch if it cannot be that high. */
+static bool
+retune_sharp(Voice* voice, const TuningTarget* target, BridgeHold hold, uint32_t n_glide) {
+  TuningTarget sharp = *target;
+  sharp.tone.f0_hz = tension_raised_hz(&voice->tension, target->tone.f0_hz);
+  return retune_tied(voice, &sharp, hold, n_glide) ||
+         (voice->tension.is_moving && retune_tied(voice, target, hold, n_glide));
+}
+
 /* Bring it to where it is to be after `n_glide` frames. */
 static bool glide(Voice* voice, const VoiceAim* aim, uint32_t n_glide) {
   const TuningTarget wanted = target_of(voice, aim);
   const TuningTarget target = intonation_retune(&voice->intonation, &wanted, n_glide);
-  if (!retune_tied(voice, &target, hold_of(voice, aim), n_glide)) {
+  if (!retune_sharp(voice, &target, hold_of(voice, aim), n_glide)) {
     return false;
   }
   voice->f0_hz = wanted.tone.f0_hz;
@@ -236,6 +245,53 @@ static bool act_played(Voice* voice) {
   return is_gliding || has_left;
 }
 
+/* It goes to `aim`, and on from there by itself; in how many frames.  How sharp it is does not wait
+ * for slow changes. */
+static uint32_t stretch(Voice* voice, const VoiceAim* aim, uint32_t n_glide) {
+  Tension* const tension = &voice->tension;
+  if (aim->tension > 0.0 || tension->is_moving) {
+    voice->aim = *aim;
+    tension->cents = aim->tension;
+    tension_see(tension, &voice->chain, voice->hammer.is_active);
+    n_glide = tension->is_moving ? least(n_glide, voice->n_gesture) : n_glide;
+    tension->n_left = n_glide > 0 ? n_glide : 1;
+  }
+  return n_glide;
+}
+
+/* A piece begins of how sharp it is; what is under way is not hurried. */
+static void begin_stretch(Voice* voice) {
+  const VoiceAim aim = voice->aim;
+  const uint32_t n_gliding = voice->chain.n_gliding;
+  voice_aim(voice, &aim, n_gliding > MOTION_PIECE_FRAMES ? n_gliding : MOTION_PIECE_FRAMES);
+}
+
+/* The next piece, if it is due; where one of the pitch's motion is, that will see to it. */
+static bool pass_stretch(Voice* voice, uint32_t n_frames) {
+  Tension* const tension = &voice->tension;
+  if (!tension->is_moving) {
+    return false;
+  }
+  tension->n_left -= n_frames;
+  if (tension->n_left > 0) {
+    return false;
+  }
+  if (voice->is_moving && voice->n_until_piece == 0) {
+    tension->n_left = 1;
+    return false;
+  }
+  begin_stretch(voice);
+  return true;
+}
+
+/* It moves freely from now on, or is held to its pitch by who plays it. */
+static void set_free(Voice* voice, bool is_free) {
+  voice->tension.is_free = is_free;
+  if (is_free ? voice->tension.cents > 0.0 : voice->tension.is_moving) {
+    begin_stretch(voice);
+  }
+}
+
 uint32_t voice_gesture_frames(double rate_hz) {
   return (uint32_t)fmax(VOICE_GESTURE_FRAMES, round(VOICE_GESTURE_S * rate_hz));
 }
@@ -290,6 +346,8 @@ bool voice_string(Voice* voice, const VoiceAim* aim, uint32_t limit, uint32_t n_
   note_design(voice, target.tone.f0_hz, coefs);
   voice->n_strung = n_masses;
   voice->ledger = (Ledger){.lent = tie_is_wanted(hold_of(voice, aim)) ? HUGE_VAL : 0.0};
+  voice->tension = (Tension){.cents = aim->tension};
+  voice->aim = *aim;
   voice->is_kept = false;
   voice->loudest = 0.0;
   voice->n_choked = 0;
@@ -306,6 +364,7 @@ void voice_aim(Voice* voice, const VoiceAim* aim, uint32_t n_glide) {
   if (is_played(voice)) {
     put_off(voice);
   }
+  n_glide = stretch(voice, aim, n_glide);
   if (!glide(voice, aim, n_glide)) {
     glide_choked(voice, *aim, n_glide);
   }
@@ -360,6 +419,7 @@ static void take_pluck(Voice* voice, double work) {
   chain_settle(&voice->chain);
   voice->loudest = 0.0;
   notice(voice);
+  set_free(voice, true);
 }
 
 void voice_pluck(Voice* voice, Pluck pluck) {
@@ -373,6 +433,7 @@ void voice_push(Voice* voice, Pluck pluck) {
 void voice_strike(Voice* voice, Strike strike) {
   hammer_throw(&voice->hammer, &voice->chain, strike, angle1_of(voice), voice->rate_hz);
   put_off(voice);
+  set_free(voice, true);
 }
 
 void voice_bow(Voice* voice, Stroke stroke, const TuningTarget* target) {
@@ -381,6 +442,7 @@ void voice_bow(Voice* voice, Stroke stroke, const TuningTarget* target) {
     intonation_start(&voice->intonation, target);
   }
   put_off(voice);
+  set_free(voice, false);
 }
 
 void voice_swell_bow(Voice* voice, double strength, uint32_t n_frames) {
@@ -472,6 +534,7 @@ bool voice_is_touched(const Voice* voice) {
 uint32_t voice_due(const Voice* voice) {
   uint32_t n =
       voice->is_awake ? least(chain_stretch(&voice->chain), voice->n_until_check) : UINT32_MAX;
+  n = voice->is_awake && voice->tension.is_moving ? least(n, voice->tension.n_left) : n;
   return voice->is_moving ? least(n, voice->n_until_piece) : n;
 }
 
@@ -480,7 +543,7 @@ uint32_t voice_stretch(const Voice* voice) {
 }
 
 bool voice_pass(Voice* voice, uint32_t n_frames) {
-  const bool has_changed = is_played(voice) && act_played(voice);
+  bool has_changed = is_played(voice) && act_played(voice);
   if (voice->finger.n_left > 0) {
     act_finger(voice);
   }
@@ -489,6 +552,7 @@ bool voice_pass(Voice* voice, uint32_t n_frames) {
     voice->ledger.n_unseen += n_frames;
     voice->n_until_check -= n_frames;
     voice->n_choked += voice->is_choked ? n_frames : 0;
+    has_changed = pass_stretch(voice, n_frames) || has_changed;
     if (voice->n_until_check == 0) {
       check(voice);
     }

@@ -15,6 +15,7 @@
 
    Pitch.  The instrument says what its strings are to be (VoiceAim): when the player changes
    something, and whenever a piece of the pitch's motion is due, for which it is asked (VoiceOwner).
+   What its own motion adds to that (core/voice/tension.h) a voice sees to by itself, in pieces too.
 
    Its fields may be read; nobody but this room writes them.
 
@@ -33,6 +34,7 @@
 #include "core/voice/ledger.h"
 #include "core/voice/motion.h"
 #include "core/voice/pickups.h"
+#include "core/voice/tension.h"
 #include "core/voice/tie.h"
 
 #include <stdbool.h>
@@ -57,6 +59,8 @@ typedef struct {
   TuningTarget open; /**< With nothing that damps it, at the pitch that is wanted */
   double damper_s;   /**< τ that its damper leaves it at most [s]; 0: none is at it */
   BridgeHold hold;   /**< How the bridge holds it; zero: not at all */
+  double tension;    /**< Cents that it is sharp by at TENSION_AMPLITUDE, ≥ 0; 0: it does not
+                        stretch */
 } VoiceAim;
 
 /** Whose a voice is: who says where the next piece of its pitch's motion goes. */
@@ -98,6 +102,8 @@ typedef struct {
   uint32_t n_piece;       /**< Frames of its piece; 0: it is in none */
   uint32_t n_until_piece; /**< Frames until the next piece, while it is moving */
   bool is_moving;         /**< Whether there is a next piece */
+  Tension tension;        /**< What its own motion adds to that */
+  VoiceAim aim;           /**< Where it was last brought; of one that stretches */
 
   /* What is at it */
   Hammer hammer;
@@ -156,7 +162,7 @@ bool voice_string(Voice* voice, const VoiceAim* aim, uint32_t limit, uint32_t n_
    Bring a voice that is awake to `aim` in `n_glide` frames, its motion kept.  Where that would pass
    its limit stiffness and true partials give way (tuning_fit()); where they would have to by far,
    the motion is moved onto fewer masses (core/string/remesh.h).  A pitch that cannot be had chokes
-   it at the one that it has.
+   it at the one that it has.  While it is sharp of its own motion it takes a gesture at most.
 */
 void voice_aim(Voice* voice, const VoiceAim* aim, uint32_t n_glide);
 
@@ -242,7 +248,7 @@ void voice_still(Voice* voice);
 /** Whether a hammer, a bow or a finger is at it, which act after every frame. */
 bool voice_is_touched(const Voice* voice);
 
-/** Frames until a glide or a piece ends, or it is due to be looked after. */
+/** Frames until a glide or a piece of either kind ends, or it is due to be looked after. */
 uint32_t voice_due(const Voice* voice);
 
 /** Frames that it can be run in one go, before voice_pass() must be told: one while it is touched,

@@ -30,6 +30,7 @@ static HarpPatch draw_patch(Random* random) {
   patch.string.loss = random_log_between(random, 1e-5, 1.0);
   patch.string.inharmonicity = random_log_between(random, 1e-6, 0.1);
   patch.string.partials = (Partials)random_below(random, 3);
+  patch.string.tension = random_below(random, 2) ? random_between(random, 0.0, 100.0) : 0.0;
   patch.string.release_s = random_log_between(random, 0.005, 10.0);
   patch.string.tuning_hz = random_between(random, 400.0, 480.0);
   patch.string.max_masses = most_masses[random_below(random, 4)];

@@ -50,6 +50,7 @@ static HarpPatch random_patch(Random* random) {
       .pluck = random_between(random, 0.0, 1.0),
       .hardness = random_between(random, 0.0, 1.0),
       .string.release_s = random_log_between(random, 1e-3, 10.0),
+      .string.tension = random_below(random, 2) ? random_between(random, 0.0, 100.0) : 0.0,
       .string.tuning_hz = random_between(random, 400.0, 480.0),
       .string.max_masses =
           1 + random_below(random, random_below(random, 2) ? 20 : CHAIN_MAX_MASSES),

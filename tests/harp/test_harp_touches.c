@@ -133,6 +133,22 @@ static void brightness_moves_what_is_between_the_masses(void** state) {
   harp_free(harp);
 }
 
+/* "towards a tenth of it". */
+static void brightness_starts_from_the_loss_of_the_key(void** state) {
+  (void)state;
+  HarpPatch patch = harps_touched_patch(0);
+  patch.string.loss_tracking = -1.5;
+  const double wanted = patch.string.loss * exp2(-1.5 * (KEY - 69.0) / 12.0);
+  Harp* const harp = harps_new(RATE, &patch);
+  harp_note_on(harp, 0, KEY, 100);
+  harps_run(harp, 1000, NULL, NULL);
+  assert_within("as the patch has it", fabs(loss_of(&harp->strings[KEY]) / wanted - 1.0), 1e-9);
+  harp_brighten(harp, 0, 1.0);
+  harps_run(harp, 1000, NULL, NULL);
+  assert_within("a tenth", fabs(loss_of(&harp->strings[KEY]) / (0.1 * wanted) - 1.0), 1e-9);
+  harp_free(harp);
+}
+
 /* How much of what is heard is above the first partials: mean square of the changes. */
 static double sharpness(const float* samples, size_t n) {
   double sum = 0.0;
@@ -195,6 +211,7 @@ int main(void) {
       cmocka_unit_test(far_bends_are_exact_and_do_not_click),
       cmocka_unit_test(breath_and_pressure_are_the_bows_strength),
       cmocka_unit_test(brightness_moves_what_is_between_the_masses),
+      cmocka_unit_test(brightness_starts_from_the_loss_of_the_key),
       cmocka_unit_test(a_brighter_hand_plays_brighter_notes),
       cmocka_unit_test(a_channels_gain_makes_no_step),
   };

@@ -60,6 +60,10 @@ static const Pin pinned[] = {
     {"headroom", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 1.0f},
     {"limiter", PIN_IN, PIN_VALUE, NULL, PIN_TOGGLED, 0.0f, 1.0f, 1.0f},
     {"stability_used", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
+    {"loss_tracking", PIN_IN, PIN_VALUE, NULL, 0, -2.0f, 4.0f, 0.0f},
+    {"stiffness_tracking", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 4.0f, 0.0f},
+    {"release_tracking", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 2.0f, 0.0f},
+    {"tension", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 100.0f, 0.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };
@@ -143,7 +147,7 @@ static void ports_of_a_name_are_alike_in_both_plugins(void** state) {
       ++n_shared;
     }
   }
-  assert_int_equal(n_shared, 11);
+  assert_int_equal(n_shared, 15);
   host_free(guitar);
   host_free(strings);
 }

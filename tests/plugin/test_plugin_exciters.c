@@ -53,7 +53,9 @@ static void set_anyhow(Host* host, Random* random, uint32_t key) {
     /* On stiffer strings bows find an upper partial, and the fundamental is 40 dB below it: there
      * its decay is measured to 0.03 %. */
     strings_set(host, "stiffness", fmin((double)host_get(host, "stiffness"), 1e-3));
+    strings_set(host, "stiffness_tracking", 0.0);
   }
+  strings_set(host, "tension", 0.0);
   strings_set(host, "pickup", 0.45);
   strings_set(host, "spread", 0.0);
   strings_set(host, "pluck", random_between(random, 0.1, 0.4));

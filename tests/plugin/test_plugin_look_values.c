@@ -41,7 +41,7 @@ static const char* conversion_of(Host* host, uint32_t port) {
 /* A host may print what it is told to, and %f is six decimals.  What it shows beside a number has
  * to be a unit: no letter of a formula, nor once more what is counted. */
 static void check_unit(Host* host, uint32_t port) {
-  static const char* const of_lv2[] = {"dB", "Hz", "s", "ms"};
+  static const char* const of_lv2[] = {"dB", "Hz", "s", "ms", "ct"};
   LilvNode* const unit = panel_get(host, port, LV2_UNITS__unit);
   print_message("%s\n", host_port_symbol(host, port));
   assert_non_null(unit);

@@ -243,6 +243,8 @@ static void what_rings_has_the_new_pitch_and_decay_exactly(void** state) {
   check_tone_after("stiffness", 1e-6, 0.1, &worst);
   check_tone_after("stiffness", 0.1, 1e-6, &worst);
   check_tone_after("loss", 1e-5, 1.0, &worst);
+  check_tone_after("stiffness_tracking", 0.0, 4.0, &worst);
+  check_tone_after("loss_tracking", 4.0, -2.0, &worst);
   strings_assert_exact("stiffness and loss, which leave both alone", worst);
 }
 

@@ -45,6 +45,10 @@ static const Pin pinned[] = {
     {"resonance", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
     {"vibrato_rate", PIN_IN, PIN_VALUE, NULL, PIN_LOGARITHMIC, 0.5f, 12.0f, 5.5f},
     {"stability_used", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
+    {"loss_tracking", PIN_IN, PIN_VALUE, NULL, 0, -2.0f, 4.0f, 0.0f},
+    {"stiffness_tracking", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 4.0f, 0.0f},
+    {"release_tracking", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 2.0f, 0.0f},
+    {"tension", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 100.0f, 0.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };

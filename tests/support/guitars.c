@@ -70,6 +70,10 @@ static GuitarPatch draw_patch(Random* random) {
   p->loss = draw(random, 0.0, 1.0);
   p->inharmonicity = random_below(random, 2) ? 0.0 : random_log_between(random, 1e-6, 0.1);
   p->partials = (Partials)random_below(random, 3);
+  p->loss_tracking = random_below(random, 2) ? 0.0 : draw(random, -2.0, 4.0);
+  p->inharmonicity_tracking = random_below(random, 2) ? 0.0 : draw(random, 0.0, 4.0);
+  p->tension = random_below(random, 2) ? 0.0 : draw(random, 0.0, 100.0);
+  p->release_tracking = random_below(random, 2) ? 0.0 : draw(random, 0.0, 2.0);
   patch.pluck = draw(random, 0.0, 1.0);
   patch.hardness = draw(random, 0.0, 1.0);
   p->release_s = random_log_between(random, 0.005, 10.0);

@@ -22,11 +22,20 @@ static const Range ranges[STRINGS_N_PORTS] = {STRINGS_CONTROL_PORTS(SETTING_RANG
 
 static const Range* range_of(SettingName name) {
   static const uint32_t ports[N_SETTINGS] = {
-      [SETTING_DAMPING] = STRINGS_PORT_DAMPING,   [SETTING_TRACKING] = STRINGS_PORT_TRACKING,
-      [SETTING_LOSS] = STRINGS_PORT_LOSS,         [SETTING_STIFFNESS] = STRINGS_PORT_STIFFNESS,
-      [SETTING_MASSES] = STRINGS_PORT_MASSES,     [SETTING_TUNING] = STRINGS_PORT_TUNING,
-      [SETTING_PARTIALS] = STRINGS_PORT_PARTIALS, [SETTING_RELEASE] = STRINGS_PORT_RELEASE,
-      [SETTING_PLUCK] = STRINGS_PORT_PLUCK,       [SETTING_HARDNESS] = STRINGS_PORT_HARDNESS,
+      [SETTING_DAMPING] = STRINGS_PORT_DAMPING,
+      [SETTING_TRACKING] = STRINGS_PORT_TRACKING,
+      [SETTING_LOSS] = STRINGS_PORT_LOSS,
+      [SETTING_STIFFNESS] = STRINGS_PORT_STIFFNESS,
+      [SETTING_MASSES] = STRINGS_PORT_MASSES,
+      [SETTING_TUNING] = STRINGS_PORT_TUNING,
+      [SETTING_PARTIALS] = STRINGS_PORT_PARTIALS,
+      [SETTING_RELEASE] = STRINGS_PORT_RELEASE,
+      [SETTING_PLUCK] = STRINGS_PORT_PLUCK,
+      [SETTING_HARDNESS] = STRINGS_PORT_HARDNESS,
+      [SETTING_LOSS_TRACKING] = STRINGS_PORT_LOSS_TRACKING,
+      [SETTING_STIFFNESS_TRACKING] = STRINGS_PORT_STIFFNESS_TRACKING,
+      [SETTING_RELEASE_TRACKING] = STRINGS_PORT_RELEASE_TRACKING,
+      [SETTING_TENSION] = STRINGS_PORT_TENSION,
   };
   return &ranges[ports[name]];
 }
@@ -70,13 +79,17 @@ HarpPatch settings_patch(const Setting* setting) {
       .string.damping_per_s = v[SETTING_DAMPING],
       .string.tracking = v[SETTING_TRACKING],
       .string.loss = is_lossless ? 0.0 : v[SETTING_LOSS],
+      .string.loss_tracking = v[SETTING_LOSS_TRACKING],
       .string.inharmonicity = is_flexible ? 0.0 : v[SETTING_STIFFNESS],
+      .string.inharmonicity_tracking = v[SETTING_STIFFNESS_TRACKING],
       .string.partials = (Partials)lround(v[SETTING_PARTIALS]),
       .pickup = ranges[STRINGS_PORT_PICKUP].default_value,
       .spread = ranges[STRINGS_PORT_SPREAD].default_value,
       .pluck = v[SETTING_PLUCK],
       .hardness = v[SETTING_HARDNESS],
       .string.release_s = v[SETTING_RELEASE],
+      .string.release_tracking = v[SETTING_RELEASE_TRACKING],
+      .string.tension = v[SETTING_TENSION],
       .string.tuning_hz = v[SETTING_TUNING],
       .string.max_masses = (uint32_t)lround(v[SETTING_MASSES]),
   };

@@ -133,7 +133,10 @@ Tone strings_tone(const Host* host, uint32_t key, double bend) {
 
 Tone strings_released_tone(const Host* host, uint32_t key, double bend) {
   Tone tone = strings_tone(host, key, bend);
-  tone.tau_s = fmin(tone.tau_s, (double)host_get(host, "release"));
+  const double tracking = (double)host_get(host, "release_tracking");
+  const double release_s = (double)host_get(host, "release");
+  const double tracked_s = release_s * exp2(-tracking * ((double)key - 69.0) / 12.0);
+  tone.tau_s = fmin(tone.tau_s, fmax(tracked_s, fmin(release_s, 0.005)));
   return tone;
 }
 

@@ -78,6 +78,99 @@ static void stiffness_stretches_partials_as_printed(void** state) {
   assert_true(other > 80.0);
 }
 
+/* "the loss is loss · 2^(loss_tracking · (key − 69)/12), at most 1": the share of the fundamental's
+ * damping that is between the masses, as it is stepped. */
+static void loss_follows_the_key_as_printed(void** state) {
+  (void)state;
+  double worst = 0.0;
+  double most = 0.0;
+  for (int key = 21; key <= 108; key += 3) {
+    for (int step = -4; step <= 8; ++step) {
+      StringPatch patch = USUAL;
+      patch.loss_tracking = 0.5 * step;
+      const StringCoefs coefs = string_of(&patch, key, 1e6, 8);
+      const double between = coefs.z1 * (2.0 - 2.0 * cos(acos(-1.0) / 9.0));
+      const double printed = fmin(1.0, 0.01 * pow(2.0, patch.loss_tracking * (key - 69) / 12.0));
+      worst = fmax(worst, fabs(between / (coefs.z0 + between) / printed - 1.0));
+      most = fmax(most, printed);
+    }
+  }
+  assert_within("share, relative", worst, 1e-9);
+  assert_true(most == 1.0);
+}
+
+/* "B follows stiffness alike, at most 0.1": from partial 5 of a string of many masses. */
+static void stiffness_follows_the_key_as_printed(void** state) {
+  (void)state;
+  double worst = 0.0;
+  double most = 0.0;
+  for (int key = 21; key <= 108; key += 3) {
+    for (int step = 0; step <= 8; ++step) {
+      StringPatch patch = USUAL;
+      patch.inharmonicity = 1e-3;
+      patch.inharmonicity_tracking = 0.5 * step;
+      patch.damping_per_s = 1e-3;
+      const double rate_hz = 1e8;
+      const StringCoefs coefs = string_of(&patch, key, rate_hz, 1000);
+      const double first_hz = pole_tone(rate_hz, tuning_mode(coefs, 1000, 1)).f0_hz;
+      const double r = pole_tone(rate_hz, tuning_mode(coefs, 1000, 5)).f0_hz / (5.0 * first_hz);
+      const double b = (r * r - 1.0) / (25.0 - r * r);
+      const double printed =
+          fmin(0.1, 1e-3 * pow(2.0, patch.inharmonicity_tracking * (key - 69) / 12.0));
+      worst = fmax(worst, fabs(b - printed));
+      most = fmax(most, printed);
+    }
+  }
+  assert_within("B", worst, 1e-6);
+  assert_true(most == 0.1);
+}
+
+/* "the release is release · 2^(−release_tracking · (key − 69)/12), at least 5 ms". */
+static void release_follows_the_key_as_printed(void** state) {
+  (void)state;
+  double worst = 0.0;
+  double least = HUGE_VAL;
+  for (int key = 21; key <= 108; ++key) {
+    for (int step = 0; step <= 8; ++step) {
+      StringPatch patch = USUAL;
+      patch.release_tracking = 0.25 * step;
+      const double printed_s =
+          fmax(0.005, 0.1 * pow(2.0, -patch.release_tracking * (key - 69) / 12.0));
+      worst = fmax(worst, fabs(string_patch_release_s(&patch, key - 69) / printed_s - 1.0));
+      least = fmin(least, printed_s);
+    }
+  }
+  assert_within("τ, relative", worst, 1e-12);
+  assert_true(least == 0.005);
+}
+
+/* Bit by bit, whatever the key, even where it is set outright to more than tracking may reach. */
+static void what_follows_by_nothing_is_what_it_is_set_to(void** state) {
+  (void)state;
+  StringPatch patch = USUAL;
+  patch.inharmonicity = (double)0.1f;
+  patch.release_s = (double)0.005f;
+  patch.loss = (double)0.3f;
+  for (int key = 0; key <= 127; ++key) {
+    const TuningTarget target = string_patch_target(&patch, RATE_HZ, key - 69, 440.0);
+    assert_true(target.loss == patch.loss && target.inharmonicity == patch.inharmonicity);
+    assert_true(string_patch_release_s(&patch, key - 69) == patch.release_s);
+  }
+}
+
+/* What rings hears of each. */
+static void another_tracking_or_tension_does_not_ring_alike(void** state) {
+  (void)state;
+  StringPatch others[] = {USUAL, USUAL, USUAL, USUAL, USUAL};
+  others[1].loss_tracking = 1e-6;
+  others[2].inharmonicity_tracking = 1e-6;
+  others[3].release_tracking = 1e-6;
+  others[4].tension = 1e-6;
+  for (int i = 0; i < 5; ++i) {
+    assert_int_equal(string_patch_rings_alike(&USUAL, &others[i]), i == 0);
+  }
+}
+
 /* "frequency of A4, which all keys follow". */
 static void keys_follow_a4_in_equal_steps(void** state) {
   (void)state;
@@ -96,6 +189,11 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(tracking_is_a_power_of_two_an_octave),
       cmocka_unit_test(stiffness_stretches_partials_as_printed),
+      cmocka_unit_test(loss_follows_the_key_as_printed),
+      cmocka_unit_test(stiffness_follows_the_key_as_printed),
+      cmocka_unit_test(release_follows_the_key_as_printed),
+      cmocka_unit_test(what_follows_by_nothing_is_what_it_is_set_to),
+      cmocka_unit_test(another_tracking_or_tension_does_not_ring_alike),
       cmocka_unit_test(keys_follow_a4_in_equal_steps),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
