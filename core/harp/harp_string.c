@@ -13,6 +13,9 @@ static const double FARTHEST_STRIKE = 0.47;
 static const double BOW_ATTACK_S = 0.04;
 static const double BOW_RELEASE_S = 0.03;
 
+/* A low E that is plucked hard moves so much less than what tension is told for. */
+static const double TENSION = TENSION_AMPLITUDE * TENSION_AMPLITUDE / (0.8 * 0.8);
+
 /* How much less a soft hand presses it. */
 static const double BOW_SOFTER = 0.19;
 
@@ -60,7 +63,7 @@ static VoiceAim aim_at(const HarpString* string, double f0_hz) {
       string_patch_target(&string->patch->string, string->voice.rate_hz, semitones, f0_hz);
   open.loss = loss_of(string, open.loss);
   return (VoiceAim){open, damper_of(string, semitones, open.tone.tau_s), hold_of(string, f0_hz),
-                    string->patch->string.tension};
+                    TENSION * string->patch->string.tension};
 }
 
 static double pressure_of(const HarpString* string) {

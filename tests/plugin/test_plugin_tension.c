@@ -179,6 +179,9 @@ static SwingHeard swing(int plugin, double range, double period, double repeat_s
                       .repeat_s = repeat_s};
   strings_set(host, "damping", 0.05);
   strings_set(host, "masses", 40.0);
+  if (plugin == 0) {
+    strings_set(host, "sense", 0.0); /* A velocity grows with the pitch. */
+  }
   swings_set_range(host, (uint32_t)range);
   const SwingHeard heard = swings_play(host, &trial);
   host_free(host);
