@@ -36,15 +36,19 @@ static double decibels(double ratio) {
   return 20.0 * log10(ratio);
 }
 
-/* As they come, but that nobody limits it. */
+/* As they come, but that nobody limits it, and that displacements are heard: velocities grow with
+ * the pitch. */
 static void put_ports_back(Host* host) {
+  HostRange range;
   for (uint32_t i = 0; host_symbol(host, i); ++i) {
-    HostRange range;
     if (host_range(host, host_symbol(host, i), &range)) {
       strings_set(host, host_symbol(host, i), (double)range.initial);
     }
   }
   strings_set(host, "limiter", 0.0);
+  if (host_range(host, "sense", &range)) {
+    strings_set(host, "sense", 0.0);
+  }
 }
 
 static void put_back(Host* host) {

@@ -78,11 +78,9 @@ static void what_is_unknown_or_broken_is_ignored(void** state) {
   sound_free(&sounds[1]);
 }
 
-/*
-  The string is linear: plucked twice it sounds as the sum of both plucks, each on its own.  So a
-  second pluck adds energy whenever it does not come upon the first one's wave turned over.
-*/
+/* The finger stops the string first: plucked again it sounds as it did, whatever it was doing. */
 static void check_second_pluck(Host* host, size_t gap) {
+  enum { ONSET = RATE / 50 };
   Sound twice = sound_new(RATE);
   Sound once = sound_new(RATE);
   double worst = 0.0;
@@ -93,17 +91,16 @@ static void check_second_pluck(Host* host, size_t gap) {
   strings_note_on(host, 0, 57, 90);
   strings_note_on(host, gap, 57, 90);
   strings_run(host, &twice, 0, RATE, BLOCK);
-  for (size_t i = 0; i < RATE; ++i) {
-    const double sum = (double)once.left[i] + (i < gap ? 0.0 : (double)once.left[i - gap]);
-    worst = fmax(worst, fabs((double)twice.left[i] - sum));
+  for (size_t i = gap + ONSET; i < RATE; ++i) {
+    worst = fmax(worst, fabs((double)twice.left[i] - (double)once.left[i - gap]));
   }
-  assert_within("plucked twice against the sum", worst / measure_peak(once.left, RATE), ROUNDING);
+  assert_within("plucked again against once", worst / measure_peak(once.left, RATE), ROUNDING);
   assert_true(host_get(host, "sounding") == 1.0f);
   sound_free(&twice);
   sound_free(&once);
 }
 
-static void plucking_what_rings_adds_to_it(void** state) {
+static void plucking_what_rings_stops_it_first(void** state) {
   static const size_t gaps[] = {0, 1, 17, 1000, 4800, 20000};
   (void)state;
   Host* const host = strings_open(RATE, BLOCK);
@@ -204,7 +201,7 @@ static void the_shortest_notes_end_too(void** state) {
   }
 }
 
-static void masses_hold_from_the_next_pluck_at_rest(void** state) {
+static void masses_hold_from_the_next_pluck(void** state) {
   (void)state;
   Host* const host = strings_open(RATE, BLOCK);
   Sound sound = sound_new(4 * BLOCK);
@@ -213,16 +210,14 @@ static void masses_hold_from_the_next_pluck_at_rest(void** state) {
   strings_run(host, &sound, 0, BLOCK, BLOCK);
   assert_true(host_get(host, "mass_count") == 37.0f);
   strings_set(host, "masses", 5.0);
-  strings_note_on(host, 0, 40, 100);
   strings_run(host, &sound, BLOCK, 2 * BLOCK, BLOCK);
   assert_true(host_get(host, "mass_count") == 37.0f);
   strings_note_on(host, 0, 41, 100);
   strings_run(host, &sound, 2 * BLOCK, 3 * BLOCK, BLOCK);
   assert_true(host_get(host, "mass_count") == 42.0f);
-  strings_restart(host);
   strings_note_on(host, 0, 40, 100);
   strings_run(host, &sound, 3 * BLOCK, 4 * BLOCK, BLOCK);
-  assert_true(host_get(host, "mass_count") == 5.0f);
+  assert_true(host_get(host, "mass_count") == 10.0f);
   sound_free(&sound);
   host_free(host);
 }
@@ -259,8 +254,8 @@ static double brightness(const Sound* sound) {
   return sqrt(slope / (double)sound->n_frames) / measure_rms(sound->left, sound->n_frames);
 }
 
-/* To the ear, as the square of the velocity; and by little brighter. */
-static void velocity_makes_it_louder_and_a_little_brighter(void** state) {
+/* To the ear, as the square of the velocity; and brighter from step to step. */
+static void velocity_makes_it_louder_and_brighter(void** state) {
   (void)state;
   Host* const host = strings_open(RATE, BLOCK);
   Sound sound = sound_new(RATE);
@@ -276,7 +271,6 @@ static void velocity_makes_it_louder_and_a_little_brighter(void** state) {
     const double full = lufs - 40.0 * log10(velocity / 127.0);
     assert_true(bright > brightness_before);
     assert_true(velocity == 1 || fabs(full - full_before) < 0.1);
-    assert_true(velocity == 1 || bright < 1.1 * brightness_before);
     full_before = full;
     brightness_before = bright;
   }
@@ -287,14 +281,14 @@ static void velocity_makes_it_louder_and_a_little_brighter(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_is_unknown_or_broken_is_ignored),
-      cmocka_unit_test(plucking_what_rings_adds_to_it),
+      cmocka_unit_test(plucking_what_rings_stops_it_first),
       cmocka_unit_test(every_key_below_nyquist_has_a_string_of_its_own),
       cmocka_unit_test(a_key_at_or_above_nyquist_is_silent),
       cmocka_unit_test(what_has_died_is_exact_zeros),
       cmocka_unit_test(the_shortest_notes_end_too),
-      cmocka_unit_test(masses_hold_from_the_next_pluck_at_rest),
+      cmocka_unit_test(masses_hold_from_the_next_pluck),
       cmocka_unit_test(a_note_is_neither_weak_nor_clipped),
-      cmocka_unit_test(velocity_makes_it_louder_and_a_little_brighter),
+      cmocka_unit_test(velocity_makes_it_louder_and_brighter),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,7 +74,7 @@ Sound mpe_render(const char* name) {
   (void)snprintf(wav, sizeof(wav), "%s/song.wav", directory.text);
   const int n =
       snprintf(command, sizeof(command),
-               "\"$HOOKE_BIN\" render --quiet --rate %d --tail 1 --set spread=0 "
+               "\"$HOOKE_BIN\" render --quiet --rate %d --tail 1 --set spread=0 --set sense=0 "
                "--set pickup=0.45 --set pluck=0.4 \"$HOOKE_SOURCE/tests/mpe/%s.mid\" '%s'",
                MPE_RATE, name, wav);
   assert_true(n > 0 && (size_t)n < sizeof(command));

@@ -72,6 +72,7 @@ void strings_set(Host* host, const char* symbol, double value) {
 
 void strings_set_plain(Host* host) {
   strings_set(host, "spread", 0.0);
+  strings_set(host, "sense", 0.0);
   strings_set(host, "pickup", 0.45);
   strings_set(host, "pluck", 0.4);
 }

@@ -88,14 +88,19 @@ static void go_slide(Host* host, uint32_t key, double to) {
   }
 }
 
-/* As they come, what reads the string: through another pickup it is as loud as that makes it. */
+/* As they come, what reads the string, and how far it is: through another pickup it is as loud as
+ * that makes it. */
 static void listen_as_usual(Host* host) {
-  static const char* const symbols[] = {"level", "sense", "pickup", "spread", "pickup2", "blend"};
+  static const char* const symbols[] = {"level", "pickup", "spread", "pickup2", "blend"};
   for (uint32_t i = 0; i < sizeof(symbols) / sizeof(symbols[0]); ++i) {
     HostRange range;
     if (host_range(host, symbols[i], &range)) {
       strings_set(host, symbols[i], (double)range.initial);
     }
+  }
+  HostRange senses;
+  if (host_range(host, "sense", &senses)) {
+    strings_set(host, "sense", 0.0);
   }
   strings_set(host, "limiter", 0.0);
 }
