@@ -103,6 +103,7 @@ void harp_reset(Harp* harp) {
   harp_channels_reset(harp->channels);
   harp_bridge_init(&harp->bridge, harp->rate_hz);
   harp->reading.n_taps = 0;
+  harp->n_notes = 0;
   harp->is_bowed = false;
   harp->dc[0] = 0.0;
   harp->dc[1] = 0.0;
@@ -144,6 +145,14 @@ static bool is_still(const Harp* harp) {
   return harp->dc[0] == 0.0 && harp->dc[1] == 0.0 && harp_report(harp).n_strings == 0;
 }
 
+static bool is_played(const Harp* harp) {
+  bool is_played = false;
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    is_played = is_played || harp->strings[i].voice.is_awake || harp->strings[i].holders;
+  }
+  return is_played;
+}
+
 /* What a channel makes of a velocity. */
 static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t velocity) {
   const double force = velocity / 127.0;
@@ -160,6 +169,7 @@ static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t vel
 
 void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity) {
   assert(channel < HARP_CHANNELS && key < HARP_KEYS);
+  harp->n_notes = is_played(harp) ? harp->n_notes + 1 : 0;
   HarpString* const string = harp_channels_take(harp, channel, key);
   string->is_caught = string->is_caught && string->channel == channel;
   const double louder = harp_channels_hand(harp, string, channel);
@@ -169,7 +179,8 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   string->touch = harp->channels[channel].touch;
   tune(harp, string);
   harp->is_bowed = harp->patch.exciter == EXCITER_BOW || (harp->is_bowed && !is_still(harp));
-  Pluck pluck = pluck_of(harp, &harp->channels[channel], velocity);
+  const Pluck asked = pluck_of(harp, &harp->channels[channel], velocity);
+  Pluck pluck = variation_of(harp->patch.variation, key, harp->n_notes, asked);
   pluck.amplitude *= louder;
   harp_string_play(string, pluck, harp->n_gesture);
 }

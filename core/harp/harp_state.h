@@ -84,6 +84,7 @@ typedef struct Harp {
   double scales[HARP_CHANNELS][HARP_KEYS]; /**< Pitches of each channel's keys above A4
                                               [semitones]; NAN: none */
   Line level;
+  uint32_t n_notes; /**< That have been played since all was still */
   Pickups pickups;
   uint32_t n_fade;                  /**< Frames that the next fade will take */
   HarpString strings[HARP_STRINGS]; /**< Of every key, and then of spares */

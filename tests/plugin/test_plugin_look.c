@@ -29,7 +29,8 @@ static const Shown of_strings[] = {
     {"pickup", "pickups"},     {"sense", "pickups"},   {"stiffness", "string"},
     {"resonance", "string"},   {"release", "touch"},   {"tracking", "string"},
     {"spread", "pickups"},     {"partials", "string"}, {"masses", "string"},
-    {"vibrato_rate", "touch"}, {"tuning", "string"},   {"limiter", "level"},
+    {"vibrato_rate", "touch"}, {"variation", "touch"}, {"take", "touch"},
+    {"tuning", "string"},      {"limiter", "level"},
 };
 
 static const Shown of_guitar[] = {
@@ -40,7 +41,7 @@ static const Shown of_guitar[] = {
     {"width", "level"},     {"course", "string"},    {"partials", "string"}, {"masses", "string"},
     {"capo", "neck"},       {"string1", "neck"},     {"string2", "neck"},    {"string3", "neck"},
     {"string4", "neck"},    {"string5", "neck"},     {"string6", "neck"},    {"tuning", "string"},
-    {"limiter", "level"},
+    {"variation", "touch"}, {"take", "touch"},       {"limiter", "level"},
 };
 
 static const char* const of_meters[] = {"sounding", "mass_count", "headroom", "stability_used"};

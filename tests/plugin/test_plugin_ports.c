@@ -45,6 +45,8 @@ static const Pin pinned[] = {
     {"resonance", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
     {"vibrato_rate", PIN_IN, PIN_VALUE, NULL, PIN_LOGARITHMIC, 0.5f, 12.0f, 5.5f},
     {"stability_used", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
+    {"variation", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
+    {"take", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER, 1.0f, 999.0f, 1.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };

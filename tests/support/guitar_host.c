@@ -72,6 +72,7 @@ GuitaristHow guitar_how_of(const Host* host) {
       .strum_s = port(host, "strum") / 1000.0,
       .legato = (uint32_t)port(host, "legato"),
       .harmonic = (uint32_t)port(host, "harmonic"),
+      .variation = {port(host, "variation"), (uint32_t)port(host, "take")},
   };
 }
 
