@@ -48,6 +48,7 @@ GuitarPatch guitar_ports_patch(const Controls* controls) {
       .capo = ports_whole(v[GUITAR_PORT_CAPO]),
       .palm = (double)v[GUITAR_PORT_PALM],
       .course = (double)v[GUITAR_PORT_COURSE],
+      .noise = (double)v[GUITAR_PORT_NOISE],
       .width = (double)v[GUITAR_PORT_WIDTH],
   };
   for (uint32_t i = 0; i < GUITAR_PORT_STRINGS; ++i) {

@@ -51,12 +51,13 @@
   X(COURSE, course, 33, 0.0f, 1.0f, 0.0f)                                                          \
   X(LIMITER, limiter, 37, 0.0f, 1.0f, 1.0f)                                                        \
   X(VARIATION, variation, 39, 0.0f, 1.0f, 0.0f)                                                    \
-  X(TAKE, take, 40, 1.0f, 999.0f, 1.0f)
+  X(TAKE, take, 40, 1.0f, 999.0f, 1.0f)                                                            \
+  X(NOISE, noise, 41, 0.0f, 1.0f, 0.0f)
 
 #define STREAM_ENUM(name, symbol, index) GUITAR_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   GUITAR_PORT_##name = (index),
-enum { GUITAR_STREAM_PORTS(STREAM_ENUM) GUITAR_CONTROL_PORTS(CONTROL_ENUM) GUITAR_N_PORTS = 41 };
+enum { GUITAR_STREAM_PORTS(STREAM_ENUM) GUITAR_CONTROL_PORTS(CONTROL_ENUM) GUITAR_N_PORTS = 42 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

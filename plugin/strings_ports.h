@@ -39,12 +39,13 @@
   X(RESONANCE, resonance, 25, 0.0f, 1.0f, 0.0f)                                                    \
   X(VIBRATO_RATE, vibrato_rate, 26, 0.5f, 12.0f, 5.5f)                                             \
   X(VARIATION, variation, 28, 0.0f, 1.0f, 0.0f)                                                    \
-  X(TAKE, take, 29, 1.0f, 999.0f, 1.0f)
+  X(TAKE, take, 29, 1.0f, 999.0f, 1.0f)                                                            \
+  X(NOISE, noise, 30, 0.0f, 1.0f, 0.0f)
 
 #define STREAM_ENUM(name, symbol, index) STRINGS_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   STRINGS_PORT_##name = (index),
-enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 30 };
+enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 31 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

@@ -1,6 +1,7 @@
 #include "core/harp/harp.h"
 
 #include "core/base/aligned.h"
+#include "core/base/chance.h"
 #include "core/base/maths.h"
 #include "core/harp/harp_bridge.h"
 #include "core/harp/harp_channels.h"
@@ -77,6 +78,7 @@ Harp* harp_new(double rate_hz) {
     return NULL;
   }
   harp_bridge_init(&harp->bridge, rate_hz);
+  harp->noise_make = noise_make(rate_hz);
   lay_out(harp, harp->memory);
   harp_channels_reset(harp->channels);
   tune_equally(harp);
@@ -104,6 +106,7 @@ void harp_reset(Harp* harp) {
   harp_bridge_init(&harp->bridge, harp->rate_hz);
   harp->reading.n_taps = 0;
   harp->n_notes = 0;
+  memset(harp->noises, 0, sizeof(harp->noises));
   harp->is_bowed = false;
   harp->dc[0] = 0.0;
   harp->dc[1] = 0.0;
@@ -167,6 +170,25 @@ static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t vel
   };
 }
 
+static void make_noise(Harp* harp, uint32_t channel, Pluck pluck) {
+  Noise* const noise = &harp->noises[channel];
+  const uint64_t seed = chance_bits(channel, harp->n_notes);
+  const double amplitude = harp->patch.noise * pluck.amplitude;
+  if (amplitude == 0.0) {
+    return;
+  }
+  switch (harp->patch.exciter) {
+  case EXCITER_PLUCK:
+    noise_scrape(noise, seed, pluck.hardness, amplitude);
+    break;
+  case EXCITER_STRIKE:
+    noise_knock(noise, &harp->noise_make, seed, pluck.hardness, amplitude);
+    break;
+  case EXCITER_BOW:
+    break;
+  }
+}
+
 void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity) {
   assert(channel < HARP_CHANNELS && key < HARP_KEYS);
   harp->n_notes = is_played(harp) ? harp->n_notes + 1 : 0;
@@ -180,9 +202,13 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   tune(harp, string);
   harp->is_bowed = harp->patch.exciter == EXCITER_BOW || (harp->is_bowed && !is_still(harp));
   const Pluck asked = pluck_of(harp, &harp->channels[channel], velocity);
-  Pluck pluck = variation_of(harp->patch.variation, key, harp->n_notes, asked);
+  const Pluck own = variation_of(harp->patch.variation, key, harp->n_notes, asked);
+  Pluck pluck = own;
   pluck.amplitude *= louder;
   harp_string_play(string, pluck, harp->n_gesture);
+  if (string->voice.is_awake && !string->voice.is_choked) {
+    make_noise(harp, channel, own);
+  }
 }
 
 /* Its key is up: the damper falls, as far as it may. */
@@ -308,6 +334,7 @@ void harp_all_notes_off(Harp* harp, uint32_t channel) {
 void harp_all_sound_off(Harp* harp, uint32_t channel) {
   harp->channels[channel].lift = 0.0;
   harp->channels[channel].is_sostenuto = false;
+  noise_choke(&harp->noises[channel]);
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
     if (harp_channels_holds(string, channel)) {

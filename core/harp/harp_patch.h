@@ -21,6 +21,7 @@ typedef struct {
   double hardness;  /**< Of what plucks or strikes, or pressure of the bow, 0 to 1 */
   double resonance; /**< How much the bridge that all strings share moves, 0 to 1 */
   double vibrato_hz;   /**< How fast a vibrato is [Hz], > 0 */
+  double noise;        /**< How loud what plucks or strikes is itself, 0 to 1; bows are not */
   Variation variation; /**< How notes differ, bowed ones in place, pressure and level */
 } HarpPatch;
 

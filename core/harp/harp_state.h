@@ -3,6 +3,7 @@
 #define HOOKE_CORE_HARP_HARP_STATE_H
 
 #include "core/base/line.h"
+#include "core/excite/noise.h"
 #include "core/harp/harp_patch.h"
 #include "core/harp/harp_string.h"
 #include "core/string/chain.h"
@@ -93,10 +94,12 @@ typedef struct Harp {
   uint8_t buses[HARP_STRINGS];      /**< Where each of them is heard */
   ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
   HarpBridge bridge;
-  bool is_bowed;   /**< Whether a note has been bowed since all was still */
-  double dc[2];    /**< What stands still on each side, once a note has been bowed */
-  Reading reading; /**< How they were read last */
-  uint32_t apart;  /**< The channels that had a bus of their own then, a bit each */
+  NoiseMake noise_make;
+  Noise noises[HARP_CHANNELS]; /**< What fingers and hammers of each make themselves */
+  bool is_bowed;               /**< Whether a note has been bowed since all was still */
+  double dc[2];                /**< What stands still on each side, once a note has been bowed */
+  Reading reading;             /**< How they were read last */
+  uint32_t apart;              /**< The channels that had a bus of their own then, a bit each */
   float before[HARP_BUSES][CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is
                                                differentiated */
   float mix[HARP_BUSES][CHAIN_MAX_TAPS][HARP_MIX_FRAMES];

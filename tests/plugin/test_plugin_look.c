@@ -24,24 +24,24 @@ typedef struct {
 } Shown;
 
 static const Shown of_strings[] = {
-    {"level", "level"},        {"exciter", "touch"},   {"damping", "string"},
-    {"hardness", "touch"},     {"loss", "string"},     {"pluck", "touch"},
-    {"pickup", "pickups"},     {"sense", "pickups"},   {"stiffness", "string"},
-    {"resonance", "string"},   {"release", "touch"},   {"tracking", "string"},
-    {"spread", "pickups"},     {"partials", "string"}, {"masses", "string"},
-    {"vibrato_rate", "touch"}, {"variation", "touch"}, {"take", "touch"},
-    {"tuning", "string"},      {"limiter", "level"},
+    {"level", "level"},      {"exciter", "touch"},      {"damping", "string"},
+    {"hardness", "touch"},   {"loss", "string"},        {"pluck", "touch"},
+    {"pickup", "pickups"},   {"sense", "pickups"},      {"stiffness", "string"},
+    {"resonance", "string"}, {"release", "touch"},      {"tracking", "string"},
+    {"spread", "pickups"},   {"partials", "string"},    {"masses", "string"},
+    {"noise", "touch"},      {"vibrato_rate", "touch"}, {"variation", "touch"},
+    {"take", "touch"},       {"tuning", "string"},      {"limiter", "level"},
 };
 
 static const Shown of_guitar[] = {
-    {"level", "level"},     {"damping", "string"},   {"hardness", "touch"},  {"loss", "string"},
-    {"palm", "touch"},      {"pluck", "touch"},      {"pickup", "pickups"},  {"blend", "pickups"},
-    {"pickup2", "pickups"}, {"stiffness", "string"}, {"harmonic", "touch"},  {"strum", "player"},
-    {"release", "touch"},   {"tracking", "string"},  {"legato", "player"},   {"mode", "player"},
-    {"width", "level"},     {"course", "string"},    {"partials", "string"}, {"masses", "string"},
-    {"capo", "neck"},       {"string1", "neck"},     {"string2", "neck"},    {"string3", "neck"},
-    {"string4", "neck"},    {"string5", "neck"},     {"string6", "neck"},    {"tuning", "string"},
-    {"variation", "touch"}, {"take", "touch"},       {"limiter", "level"},
+    {"level", "level"},     {"damping", "string"},   {"hardness", "touch"}, {"loss", "string"},
+    {"palm", "touch"},      {"pluck", "touch"},      {"pickup", "pickups"}, {"blend", "pickups"},
+    {"pickup2", "pickups"}, {"stiffness", "string"}, {"harmonic", "touch"}, {"strum", "player"},
+    {"release", "touch"},   {"tracking", "string"},  {"legato", "player"},  {"mode", "player"},
+    {"width", "level"},     {"noise", "touch"},      {"course", "string"},  {"partials", "string"},
+    {"masses", "string"},   {"capo", "neck"},        {"string1", "neck"},   {"string2", "neck"},
+    {"string3", "neck"},    {"string4", "neck"},     {"string5", "neck"},   {"string6", "neck"},
+    {"tuning", "string"},   {"variation", "touch"},  {"take", "touch"},     {"limiter", "level"},
 };
 
 static const char* const of_meters[] = {"sounding", "mass_count", "headroom", "stability_used"};

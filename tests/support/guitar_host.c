@@ -56,6 +56,7 @@ GuitarPatch guitar_patch_of(const Host* host) {
       .capo = port(host, "capo"),
       .palm = port(host, "palm"),
       .course = port(host, "course"),
+      .noise = port(host, "noise"),
       .width = port(host, "width"),
   };
   for (int i = 0; i < 6; ++i) {
