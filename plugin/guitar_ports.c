@@ -5,8 +5,9 @@
 static const PortRange ranges[] = {GUITAR_CONTROL_PORTS(PORT_RANGE)};
 
 /* Those of the guitarist and the host. */
-static const uint32_t not_in_patch[] = {PORT_ENABLED,     PORT_FREEWHEEL,     GUITAR_PORT_STRUM,
-                                        GUITAR_PORT_MODE, GUITAR_PORT_LEGATO, GUITAR_PORT_HARMONIC};
+static const uint32_t not_in_patch[] = {
+    PORT_ENABLED,       PORT_FREEWHEEL,       GUITAR_PORT_STRUM,     GUITAR_PORT_MODE,
+    GUITAR_PORT_LEGATO, GUITAR_PORT_HARMONIC, GUITAR_PORT_VARIATION, GUITAR_PORT_TAKE};
 
 static Controls in_patch(const Controls* controls) {
   Controls kept = *controls;
@@ -51,6 +52,7 @@ GuitarPatch guitar_ports_patch(const Controls* controls) {
       .capo = ports_whole(v[GUITAR_PORT_CAPO]),
       .palm = (double)v[GUITAR_PORT_PALM],
       .course = (double)v[GUITAR_PORT_COURSE],
+      .noise = (double)v[GUITAR_PORT_NOISE],
       .width = (double)v[GUITAR_PORT_WIDTH],
   };
   for (uint32_t i = 0; i < GUITAR_PORT_STRINGS; ++i) {
@@ -72,6 +74,7 @@ GuitaristHow guitar_ports_how(const Controls* controls) {
       .strum_s = (double)v[GUITAR_PORT_STRUM] / 1000.0,
       .legato = ports_whole(v[GUITAR_PORT_LEGATO]),
       .harmonic = ports_whole(v[GUITAR_PORT_HARMONIC]),
+      .variation = {(double)v[GUITAR_PORT_VARIATION], ports_whole(v[GUITAR_PORT_TAKE])},
   };
 }
 

@@ -53,12 +53,15 @@
   X(LOSS_TRACKING, loss_tracking, 39, -2.0f, 4.0f, 0.0f)                                           \
   X(STIFFNESS_TRACKING, stiffness_tracking, 40, 0.0f, 4.0f, 0.0f)                                  \
   X(RELEASE_TRACKING, release_tracking, 41, 0.0f, 2.0f, 0.0f)                                      \
-  X(TENSION, tension, 42, 0.0f, 100.0f, 0.0f)
+  X(TENSION, tension, 42, 0.0f, 100.0f, 0.0f)                                                      \
+  X(VARIATION, variation, 43, 0.0f, 1.0f, 0.0f)                                                    \
+  X(TAKE, take, 44, 1.0f, 999.0f, 1.0f)                                                            \
+  X(NOISE, noise, 45, 0.0f, 1.0f, 0.0f)
 
 #define STREAM_ENUM(name, symbol, index) GUITAR_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   GUITAR_PORT_##name = (index),
-enum { GUITAR_STREAM_PORTS(STREAM_ENUM) GUITAR_CONTROL_PORTS(CONTROL_ENUM) GUITAR_N_PORTS = 43 };
+enum { GUITAR_STREAM_PORTS(STREAM_ENUM) GUITAR_CONTROL_PORTS(CONTROL_ENUM) GUITAR_N_PORTS = 46 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

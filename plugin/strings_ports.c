@@ -37,6 +37,8 @@ HarpPatch strings_ports_patch(const Controls* controls) {
       .hardness = (double)v[STRINGS_PORT_HARDNESS],
       .resonance = (double)v[STRINGS_PORT_RESONANCE],
       .vibrato_hz = (double)v[STRINGS_PORT_VIBRATO_RATE],
+      .noise = (double)v[STRINGS_PORT_NOISE],
+      .variation = {(double)v[STRINGS_PORT_VARIATION], ports_whole(v[STRINGS_PORT_TAKE])},
   };
 }
 

@@ -41,12 +41,15 @@
   X(LOSS_TRACKING, loss_tracking, 28, -2.0f, 4.0f, 0.0f)                                           \
   X(STIFFNESS_TRACKING, stiffness_tracking, 29, 0.0f, 4.0f, 0.0f)                                  \
   X(RELEASE_TRACKING, release_tracking, 30, 0.0f, 2.0f, 0.0f)                                      \
-  X(TENSION, tension, 31, 0.0f, 100.0f, 0.0f)
+  X(TENSION, tension, 31, 0.0f, 100.0f, 0.0f)                                                      \
+  X(VARIATION, variation, 32, 0.0f, 1.0f, 0.0f)                                                    \
+  X(TAKE, take, 33, 1.0f, 999.0f, 1.0f)                                                            \
+  X(NOISE, noise, 34, 0.0f, 1.0f, 0.0f)
 
 #define STREAM_ENUM(name, symbol, index) STRINGS_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   STRINGS_PORT_##name = (index),
-enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 32 };
+enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 35 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

@@ -90,13 +90,16 @@ double pluck_softness(double force) {
   return 1.0 - pow(force / USUAL_FORCE, SOFTENING);
 }
 
+double pluck_played(double hardness, double softness) {
+  return fmax(PLUCK_SOFT, fmin(1.0, hardness + softness * (PLUCK_SOFT - hardness)));
+}
+
 double pluck_width(const Pluck* pluck, uint32_t n_masses) {
   const double softest = PLUCK_SOFTEST * (n_masses + 1.0);
   const double range = log(PLUCK_SOFTEST / PLUCK_HARDEST);
   const double most = fmax(0.0, log(softest / PLUCK_NARROWEST) / range);
-  const double hardness = fmin(pluck->hardness, most);
-  const double played = hardness + pluck->softness * (PLUCK_SOFT - hardness);
-  return fmax(PLUCK_NARROWEST, softest * exp(-range * fmax(PLUCK_SOFT, fmin(played, 1.0))));
+  const double played = pluck_played(fmin(pluck->hardness, most), pluck->softness);
+  return fmax(PLUCK_NARROWEST, softest * exp(-range * played));
 }
 
 double pluck_pull(Chain* chain, Pluck pluck) {

@@ -42,6 +42,9 @@ typedef struct {
 */
 double pluck_softness(double force);
 
+/** What a hand of some softness makes of hardness: PLUCK_SOFT to 1. */
+double pluck_played(double hardness, double softness);
+
 /** Half the width of what plucks [masses], at least PLUCK_NARROWEST. */
 double pluck_width(const Pluck* pluck, uint32_t n_masses);
 

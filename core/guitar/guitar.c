@@ -1,6 +1,7 @@
 #include "core/guitar/guitar.h"
 
 #include "core/base/aligned.h"
+#include "core/base/chance.h"
 #include "core/base/maths.h"
 #include "core/guitar/guitar_mixer.h"
 #include "core/guitar/guitar_string.h"
@@ -12,6 +13,9 @@
 /* A finger that falls or pulls off, against a pluck of the same force. */
 static const double HAMMER_GAIN = 0.4;
 static const double HAMMER_HARDNESS = 0.4;
+
+/* What is heard of a pluck, of its amplitude. */
+static const double NOISE_GAIN = 1.2;
 
 /* The strings beside the others: an octave higher but for the highest third, and a little sharp, so
  * that they beat [semitones]. */
@@ -27,6 +31,7 @@ struct Guitar {
   GuitarString tails[GUITAR_VOICES]; /* What they did before they were plucked again */
   void* memory;                      /* Of all strings; owned */
   GuitarMixer mixer;
+  uint32_t n_noises; /* That were made since all was still */
 
   /* What each key has on each channel, against equal temperament [semitones] */
   double detuning[PERFORMANCE_CHANNELS][PERFORMANCE_KEYS];
@@ -99,8 +104,7 @@ double guitar_force(uint32_t velocity) {
 }
 
 double guitar_hardness(double hardness, double force) {
-  const double softness = pluck_softness(sqrt(fabs(force)));
-  return clamp(hardness + softness * (PLUCK_SOFT - hardness), 0.0, 1.0);
+  return clamp(pluck_played(hardness, pluck_softness(sqrt(fabs(force)))), 0.0, 1.0);
 }
 
 Guitar* guitar_new(double rate_hz) {
@@ -122,7 +126,7 @@ Guitar* guitar_new(double rate_hz) {
     guitar_string_init(&guitar->strings[w], &guitar->patch, rate_hz, w, memory);
     guitar_string_init(&guitar->tails[w], &guitar->patch, rate_hz, w, memory + size);
   }
-  guitar_mixer_init(&guitar->mixer);
+  guitar_mixer_init(&guitar->mixer, rate_hz);
   return guitar;
 }
 
@@ -146,6 +150,8 @@ void guitar_reset(Guitar* guitar) {
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
     guitar_mixer_set_gain(&guitar->mixer, &guitar->patch, s, 1.0, 0);
   }
+  guitar_mixer_rest(&guitar->mixer);
+  guitar->n_noises = 0;
   guitar->weight = 0.0;
   set_palm(guitar);
 }
@@ -216,13 +222,34 @@ void guitar_follow_channel(Guitar* guitar, uint32_t string, uint32_t channel) {
   }
 }
 
+static bool is_still(const Guitar* guitar) {
+  bool is_still = true;
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    is_still = is_still && !guitar_is_awake(guitar, s);
+  }
+  return is_still;
+}
+
+/* A finger is heard, whichever way it goes. */
+static void make_noise(Guitar* guitar, uint32_t string, double hardness, double force) {
+  const double amplitude = NOISE_GAIN * guitar->patch.noise * fabs(force);
+  if (has(guitar, string) && amplitude > 0.0) {
+    guitar->n_noises = is_still(guitar) ? 0 : guitar->n_noises + 1;
+    guitar_mixer_scrape(&guitar->mixer, string, chance_bits(string, guitar->n_noises), hardness,
+                        GUITAR_NOTE_PEAK * amplitude);
+  }
+}
+
 void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
   const GuitarPatch* const patch = &guitar->patch;
   const double place = isnan(pluck.place) ? patch->pluck : pluck.place;
+  const bool is_usual = isnan(pluck.hardness);
+  make_noise(guitar, string,
+             is_usual ? guitar_hardness(patch->hardness, pluck.force) : pluck.hardness,
+             pluck.force);
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
     GuitarString* const s = string_of(guitar, string, side);
     const double share = side ? guitar->patch.course : 1.0;
-    const bool is_usual = isnan(pluck.hardness);
     if (share > 0.0 || s->voice.is_awake) {
       const Pluck own = {
           .place = guitar_string_place(s, place),
@@ -241,6 +268,7 @@ void guitar_fret(Guitar* guitar, uint32_t string, double fret) {
 }
 
 void guitar_hammer(Guitar* guitar, uint32_t string, double fret, double force) {
+  make_noise(guitar, string, HAMMER_HARDNESS, HAMMER_GAIN * force);
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
     GuitarString* const s = string_of(guitar, string, side);
     const double share = side ? guitar->patch.course : 1.0;
@@ -307,9 +335,15 @@ void guitar_choke(Guitar* guitar) {
     guitar_string_damp(&guitar->strings[w], GUITAR_CHOKED, 0);
     guitar_string_untouch(&guitar->strings[w]);
   }
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    guitar_mixer_choke(&guitar->mixer, s);
+  }
 }
 
 void guitar_choke_string(Guitar* guitar, uint32_t string) {
+  if (string < GUITAR_STRINGS) {
+    guitar_mixer_choke(&guitar->mixer, string);
+  }
   for (int side = 0; string < GUITAR_STRINGS && side < 2; ++side) {
     GuitarString* const s = string_of(guitar, string, side);
     guitar_string_damp(s, GUITAR_CHOKED, 0);

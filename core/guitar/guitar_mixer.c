@@ -12,11 +12,24 @@ static double place_of(const GuitarPatch* patch, uint32_t string) {
   return fmin(fmax(patch->width * place, -1.0), 1.0);
 }
 
-void guitar_mixer_init(GuitarMixer* mixer) {
-  *mixer = (GuitarMixer){.gain = {0.0}};
+void guitar_mixer_init(GuitarMixer* mixer, double rate_hz) {
+  *mixer = (GuitarMixer){.noise_make = noise_make(rate_hz)};
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
     mixer->gain[s] = 1.0;
   }
+}
+
+void guitar_mixer_rest(GuitarMixer* mixer) {
+  memset(mixer->noises, 0, sizeof(mixer->noises));
+}
+
+void guitar_mixer_scrape(
+    GuitarMixer* mixer, uint32_t string, uint64_t seed, double hardness, double amplitude) {
+  noise_scrape(&mixer->noises[string], seed, hardness, amplitude);
+}
+
+void guitar_mixer_choke(GuitarMixer* mixer, uint32_t string) {
+  noise_choke(&mixer->noises[string]);
 }
 
 /* As loud in any place. */
@@ -68,9 +81,15 @@ static void add(Line* gain, const float* from, uint32_t n_frames, float* to) {
   }
 }
 
-static void run_string(
-    GuitarMixer* mixer, GuitarString* string, GuitarString* tail, Line pans[2], uint32_t n_frames) {
-  const bool is_heard = string->voice.is_awake || tail->voice.is_awake;
+/* `noise` is heard with it; NULL: none. */
+static void run_string(GuitarMixer* mixer,
+                       GuitarString* string,
+                       GuitarString* tail,
+                       Noise* noise,
+                       Line pans[2],
+                       uint32_t n_frames) {
+  const bool is_noisy = noise && noise->is_active;
+  const bool is_heard = string->voice.is_awake || tail->voice.is_awake || is_noisy;
   if (is_heard) {
     memset(mixer->own, 0, n_frames * sizeof(float));
   }
@@ -80,6 +99,9 @@ static void run_string(
     voice_mend(&string->voice);
     voice_mend(&tail->voice);
     memset(mixer->own, 0, n_frames * sizeof(float));
+  }
+  if (is_noisy) {
+    noise_add(noise, &mixer->noise_make, n_frames, 1, (float* const[]){mixer->own});
   }
   for (int side = 0; side < 2; ++side) {
     if (is_heard) {
@@ -101,7 +123,8 @@ static void run_some(GuitarMixer* mixer,
   memset(mixer->sides[1], 0, n_frames * sizeof(float));
   fill_gains(mixer, n_frames);
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
-    run_string(mixer, &strings[w], &tails[w], mixer->pans[w], n_frames);
+    Noise* const noise = w < GUITAR_STRINGS ? &mixer->noises[w] : NULL;
+    run_string(mixer, &strings[w], &tails[w], noise, mixer->pans[w], n_frames);
   }
   line_fill(&mixer->level, n_frames, mixer->own);
   for (uint32_t n = 0; n < n_frames; ++n) {

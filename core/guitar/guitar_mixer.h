@@ -8,6 +8,7 @@
 #define HOOKE_CORE_GUITAR_GUITAR_MIXER_H
 
 #include "core/base/line.h"
+#include "core/excite/noise.h"
 #include "core/guitar/guitar_patch.h"
 #include "core/guitar/guitar_string.h"
 
@@ -21,13 +22,25 @@ typedef struct {
   Line level;
   Line gains[GUITAR_PICKUPS];
   Line pans[GUITAR_VOICES][2]; /**< Left and right */
-  GuitarGains now;             /**< Of the frames that are run */
+  NoiseMake noise_make;
+  Noise noises[GUITAR_STRINGS]; /**< What plucks each string makes itself */
+  GuitarGains now;              /**< Of the frames that are run */
   float own[GUITAR_MIX_FRAMES];
   float sides[2][GUITAR_MIX_FRAMES];
 } GuitarMixer;
 
-/** Silent, with every string's gain 1. */
-void guitar_mixer_init(GuitarMixer* mixer);
+/** Silent, with every string's gain 1.  @param rate_hz  Frames per second [Hz], > 0 */
+void guitar_mixer_init(GuitarMixer* mixer, double rate_hz);
+
+/** Silence all noises at once. */
+void guitar_mixer_rest(GuitarMixer* mixer);
+
+/** Let what plucks a string be heard where that string is, see noise_scrape(). */
+void guitar_mixer_scrape(
+    GuitarMixer* mixer, uint32_t string, uint64_t seed, double hardness, double amplitude);
+
+/** Choke that. */
+void guitar_mixer_choke(GuitarMixer* mixer, uint32_t string);
 
 /** Go to what the patch says in `n_frames`. */
 void guitar_mixer_set(GuitarMixer* mixer, const GuitarPatch* patch, uint32_t n_frames);

@@ -33,6 +33,7 @@ typedef struct {
   double capo;   /**< Fret that the capo is at, ≥ 0; the others are counted from there */
   double palm;   /**< How heavily the palm lies on the strings, 0 to 1: see GUITAR_PALM_PER_S */
   double course; /**< Loudness of the string beside each, 0 to 1; 0: there is none */
+  double noise;  /**< How loud fingers and picks are themselves, 0 to 1 */
   double width;  /**< How far the strings are spread from left to right, 0 to 1 */
   bool is_uncorrected; /**< Frets stop a mass and nothing else, as in [MQ09]: out of tune */
 } GuitarPatch;

@@ -1,5 +1,7 @@
 #include "core/guitar/guitarist.h"
 
+#include "core/base/maths.h"
+#include "core/guitar/guitar_string.h"
 #include "core/guitar/guitarist_chord.h"
 #include "core/guitar/guitarist_state.h"
 
@@ -11,6 +13,9 @@
 static const double TOUCH_PERIODS = 20.0;
 static const double LEAST_TOUCH_S = 0.03;
 static const double MOST_TOUCH_S = 0.4;
+
+/* Nobody plucks nearer to the bridge, of the length. */
+static const double LEAST_PLACE = 0.01;
 
 static const uint32_t MOST_VELOCITY = 127;
 
@@ -33,19 +38,56 @@ static double hardness_of(const Guitarist* guitarist, uint32_t channel, uint32_t
   return brightness == 0.0 ? (double)NAN : fmin(fmax(hardness, 0.0), 1.0);
 }
 
+/* Whether anything sounds, or is to, or a key is down. */
+static bool is_played(const Guitarist* guitarist) {
+  const GuitarSeat* const seat = &guitarist->seat;
+  bool is_played = false;
+  for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
+    const GuitaristString* const string = &guitarist->strings[s];
+    is_played = is_played || string->hold == GUITARIST_KEY || string->is_due ||
+                seat->is_awake(seat->guitar, s);
+  }
+  return is_played;
+}
+
+/* What a pluck moves the fundamental by, at a place on the open string. */
+static double reach(const Guitarist* guitarist, const GuitaristNote* note, double place) {
+  const double sounding = place * exp2((guitarist->capo + note->fret) / 12.0);
+  return sin(PI * clamp(sounding, LEAST_PLACE, GUITAR_FARTHEST));
+}
+
+/* What plays as the patch says is left to say so.  Another place is no other loudness. */
+static void vary(Guitarist* guitarist, GuitaristNote* note, bool is_hammered) {
+  const double usual = guitar_hardness(guitarist->hardness, note->force);
+  const Pluck asked = {guitarist->place, isnan(note->hardness) ? usual : note->hardness,
+                       note->force, 0.0};
+  guitarist->n_varied = is_played(guitarist) ? guitarist->n_varied + 1 : 0;
+  if (guitarist->how.variation.amount > 0.0) {
+    const Pluck played =
+        variation_of(guitarist->how.variation, note->key, guitarist->n_varied, asked);
+    const double even = reach(guitarist, note, asked.place) / reach(guitarist, note, played.place);
+    note->place = played.place;
+    note->hardness = played.hardness;
+    note->force = fmin((is_hammered ? 1.0 : even) * played.amplitude, 1.0);
+  }
+}
+
 static void play_note(Guitarist* guitarist, const GuitaristEvent* event) {
   const GuitaristHand hand = guitarist_chord_hand(guitarist, event->string);
-  const GuitaristNote note = {
+  GuitaristNote note = {
       .channel = event->channel,
       .holders = UINT32_C(1) << event->channel,
       .key = event->key,
-      .velocity = event->value,
+      .force = guitar_force(event->value),
+      .place = (double)NAN,
       .hardness = hardness_of(guitarist, event->channel, event->value),
       .fret = guitarist_chord_fret(guitarist, event->string, event->key),
       .harmonic = guitarist->how.harmonic,
       .touch_s = touch_s(guitarist, event->channel, event->key),
   };
-  if (guitarist_chord_is_hammered(guitarist, event)) {
+  const bool is_hammered = guitarist_chord_is_hammered(guitarist, event);
+  vary(guitarist, &note, is_hammered);
+  if (is_hammered) {
     guitarist_string_hammer(hand, note);
   } else {
     const double wait = round(event->stroke * guitarist_chord_strum_frames(guitarist));
@@ -237,6 +279,7 @@ void guitarist_reset(Guitarist* guitarist) {
   guitarist->position = 1;
   guitarist->n_events = 0;
   guitarist->n_notes = 0;
+  guitarist->n_varied = 0;
 }
 
 void guitarist_set_how(Guitarist* guitarist, GuitaristHow how) {
@@ -248,6 +291,8 @@ void guitarist_set_how(Guitarist* guitarist, GuitaristHow how) {
 
 void guitarist_set_patch(Guitarist* guitarist, const GuitarPatch* patch) {
   guitarist->tuning_hz = patch->string.tuning_hz;
+  guitarist->place = patch->pluck;
+  guitarist->capo = patch->capo;
   guitarist->hardness = patch->hardness;
   guitarist->n_strings = patch->n_strings;
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {

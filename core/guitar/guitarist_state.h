@@ -6,6 +6,7 @@
 #include "core/guitar/guitar_event.h"
 #include "core/guitar/guitarist_string.h"
 
+#include "core/excite/variation.h"
 #include "core/play/performance.h"
 
 #include <stdbool.h>
@@ -18,11 +19,12 @@ enum {
 
 /** How it plays. */
 typedef struct {
-  bool has_channels; /**< A channel for each string; false: one for all */
-  double strum_s;    /**< From string to string of a chord struck together [s], 0 to 1 */
-  uint32_t legato;   /**< Hardest velocity that is a hammer-on, 0: none is */
-  uint32_t harmonic; /**< Every pluck is touched at 1/(harmonic + 1) of the string: 0 (not at all)
-                        to 3 */
+  bool has_channels;   /**< A channel for each string; false: one for all */
+  double strum_s;      /**< From string to string of a chord struck together [s], 0 to 1 */
+  uint32_t legato;     /**< Hardest velocity that is a hammer-on, 0: none is */
+  uint32_t harmonic;   /**< Every pluck is touched at 1/(harmonic + 1) of the string: 0 (not at all)
+                          to 3 */
+  Variation variation; /**< How notes differ; those that are hammered on do in force alone */
 } GuitaristHow;
 
 /** The kinds of events that wait for the end of their frame. */
@@ -58,7 +60,9 @@ typedef struct {
   GuitarSeat seat;
   GuitaristHow how;
   double tuning_hz;
+  double place;                /**< Where the patch plucks */
   double hardness;             /**< The patch's */
+  double capo;                 /**< Its fret */
   double open[GUITAR_STRINGS]; /**< MIDI notes, with the capo */
   uint32_t n_strings;
   int32_t position; /**< Fret of the first finger, from the capo */
@@ -68,6 +72,7 @@ typedef struct {
   GuitaristStrum strum;
   uint64_t now;      /**< In frames */
   uint64_t n_played; /**< Notes so far */
+  uint32_t n_varied; /**< Of the last note, since all was still */
   GuitaristEvent events[GUITARIST_EVENTS];
   uint32_t n_events;
   uint32_t n_notes; /**< Notes on among the events, at most FRETBOARD_NOTES */

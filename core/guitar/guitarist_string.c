@@ -125,17 +125,16 @@ void guitarist_string_hammer(GuitaristHand hand, GuitaristNote note) {
   begin(string, note);
   string->note.is_hammered = true;
   guitarist_string_feel(hand, string->note.channel);
-  act(hand, GUITAR_HAMMER, note.fret, guitar_force(note.velocity), 0.0);
+  act(hand, GUITAR_HAMMER, note.fret, note.force, 0.0);
 }
 
 void guitarist_string_pluck(GuitaristHand hand) {
   GuitaristString* const string = hand.string;
   const GuitaristNote* const note = &string->note;
-  const double as_the_patch = (double)NAN;
   string->is_due = false;
   guitarist_string_feel(hand, string->note.channel);
   act(hand, GUITAR_FRET, note->fret, 0.0, 0.0);
-  act(hand, GUITAR_PLUCK, guitar_force(note->velocity), as_the_patch, note->hardness);
+  act(hand, GUITAR_PLUCK, note->force, note->place, note->hardness);
   if (note->harmonic > 0) {
     act(hand, GUITAR_TOUCH, 1.0 / (note->harmonic + 1), note->touch_s, 0.0);
   }
@@ -146,7 +145,7 @@ void guitarist_string_pluck(GuitaristHand hand) {
 
 static void pull_off(GuitaristHand hand) {
   GuitaristString* const string = hand.string;
-  const double force = PULL_OFF * guitar_force(string->note.velocity);
+  const double force = PULL_OFF * string->note.force;
   begin(string, string->waiting[--string->n_waiting]);
   guitarist_string_feel(hand, string->note.channel);
   act(hand, GUITAR_HAMMER, string->note.fret, force, 0.0);

@@ -45,8 +45,9 @@ typedef struct {
   uint32_t channel; /**< Whose touch it has */
   uint32_t holders; /**< The channels that hold its key, as bits */
   uint32_t key;
-  uint32_t velocity; /**< 1 to 127 */
-  double hardness;   /**< Of its pluck; NAN: the patch's */
+  double force;    /**< Of its pluck, 0 to 1 */
+  double place;    /**< And where that is; NAN: the patch's */
+  double hardness; /**< The same */
   double fret;
   double touch_s;    /**< How long a harmonic is touched [s] */
   uint32_t harmonic; /**< Touched at 1/(harmonic + 1) of the string; 0: not at all */

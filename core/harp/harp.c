@@ -1,6 +1,7 @@
 #include "core/harp/harp.h"
 
 #include "core/base/aligned.h"
+#include "core/base/chance.h"
 #include "core/base/maths.h"
 #include "core/harp/harp_bridge.h"
 #include "core/harp/harp_channels.h"
@@ -79,6 +80,7 @@ Harp* harp_new(double rate_hz) {
     return NULL;
   }
   harp_bridge_init(&harp->bridge, rate_hz);
+  harp->noise_make = noise_make(rate_hz);
   lay_out(harp, harp->memory);
   harp_channels_reset(harp->channels);
   tune_equally(harp);
@@ -106,6 +108,8 @@ void harp_reset(Harp* harp) {
   harp_channels_reset(harp->channels);
   harp_bridge_init(&harp->bridge, harp->rate_hz);
   harp->reading.n_taps = 0;
+  harp->n_notes = 0;
+  memset(harp->noises, 0, sizeof(harp->noises));
   harp->is_bowed = false;
   harp->dc = 0.0;
   memset(harp->onsets, 0, sizeof harp->onsets);
@@ -148,6 +152,14 @@ static bool is_still(const Harp* harp) {
   return harp->dc == 0.0 && harp_report(harp).n_strings == 0;
 }
 
+static bool is_played(const Harp* harp) {
+  bool is_played = false;
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    is_played = is_played || harp->strings[i].voice.is_awake || harp->strings[i].holders;
+  }
+  return is_played;
+}
+
 /* What a channel makes of a velocity. */
 static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t velocity) {
   const double force = velocity / 127.0;
@@ -170,8 +182,29 @@ static void stop(Harp* harp, HarpString* string) {
   }
 }
 
+static void make_noise(Harp* harp, uint32_t channel, Pluck pluck) {
+  Noise* const noise = &harp->noises[channel];
+  const uint64_t seed = chance_bits(channel, harp->n_notes);
+  const double amplitude = harp->patch.noise * pluck.amplitude;
+  if (amplitude == 0.0) {
+    return;
+  }
+  const double hardness = clamp(pluck_played(pluck.hardness, pluck.softness), 0.0, 1.0);
+  switch (harp->patch.exciter) {
+  case EXCITER_PLUCK:
+    noise_scrape(noise, seed, hardness, amplitude);
+    break;
+  case EXCITER_STRIKE:
+    noise_knock(noise, &harp->noise_make, seed, hardness, amplitude);
+    break;
+  case EXCITER_BOW:
+    break;
+  }
+}
+
 void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity) {
   assert(channel < HARP_CHANNELS && key < HARP_KEYS);
+  harp->n_notes = is_played(harp) ? harp->n_notes + 1 : 0;
   HarpString* const string = harp_channels_take(harp, channel, key);
   string->is_caught = string->is_caught && string->channel == channel;
   const bool is_plucked = harp->patch.exciter == EXCITER_PLUCK;
@@ -185,11 +218,16 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   string->touch = harp->channels[channel].touch;
   tune(harp, string);
   harp->is_bowed = harp->patch.exciter == EXCITER_BOW || (harp->is_bowed && !is_still(harp));
-  Pluck pluck = pluck_of(harp, &harp->channels[channel], velocity);
+  const Pluck asked = pluck_of(harp, &harp->channels[channel], velocity);
+  const Pluck own = variation_of(harp->patch.variation, key, harp->n_notes, asked);
+  Pluck pluck = own;
   pluck.amplitude *= louder;
   harp_string_play(string, pluck, harp->n_gesture);
   if (is_plucked && string->voice.is_awake) {
     harp_mixer_hide_start(harp, string);
+  }
+  if (string->voice.is_awake && !string->voice.is_choked) {
+    make_noise(harp, channel, own);
   }
 }
 
@@ -316,6 +354,7 @@ void harp_all_notes_off(Harp* harp, uint32_t channel) {
 void harp_all_sound_off(Harp* harp, uint32_t channel) {
   harp->channels[channel].lift = 0.0;
   harp->channels[channel].is_sostenuto = false;
+  noise_choke(&harp->noises[channel]);
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
     if (harp_channels_holds(string, channel)) {

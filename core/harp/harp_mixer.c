@@ -246,8 +246,8 @@ static void run_strings(Harp* harp, uint32_t n_parts, uint32_t n_frames, uint32_
   run_together(harp, first, n_parts, n_frames, n_taps);
 }
 
-/* The buses that are heard, a bit each: the first, those of strings, and those whose last sample is
- * still to be taken away, or that hide something. */
+/* The buses that are heard, a bit each: the first, those of strings and noises, and those whose
+ * last sample is still to be taken away, or that hide something. */
 static uint32_t heard_buses(const Harp* harp, uint32_t n_parts, uint32_t n_taps) {
   uint32_t heard = 1;
   for (uint32_t i = 0; i < n_parts; ++i) {
@@ -258,6 +258,9 @@ static uint32_t heard_buses(const Harp* harp, uint32_t n_parts, uint32_t n_taps)
       const bool is_left = harp->before[bus][t] != 0.0f || !onset_is_over(&harp->onsets[bus][t]);
       heard |= (uint32_t)is_left << bus;
     }
+  }
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    heard |= (uint32_t)harp->noises[channel].is_active << bus_of(harp, channel);
   }
   return heard;
 }
@@ -280,9 +283,21 @@ static void finish_bus(Harp* harp, uint32_t bus, const Reading* reading, uint32_
   }
 }
 
+/* What fingers and hammers make of themselves is read as it is, whatever pickups hear. */
+static void add_noises(Harp* harp, uint32_t bus, uint32_t n_taps, uint32_t n_frames) {
+  float* out[CHAIN_MAX_TAPS];
+  outputs_of(harp, bus, 0, n_taps, out);
+  for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
+    if (bus_of(harp, channel) == bus) {
+      noise_add(&harp->noises[channel], &harp->noise_make, n_frames, n_taps, out);
+    }
+  }
+}
+
 static void add_bus(Harp* harp, uint32_t channel, const Reading* reading, uint32_t n_frames) {
   Line* const gain = &harp->channels[channel].gain;
   finish_bus(harp, 1 + channel, reading, n_frames);
+  add_noises(harp, 1 + channel, reading->n_taps, n_frames);
   for (uint32_t n = 0; n < n_frames; ++n) {
     const float now = (float)line_next(gain);
     for (uint32_t t = 0; t < reading->n_taps; ++t) {
@@ -295,6 +310,7 @@ static void add_bus(Harp* harp, uint32_t channel, const Reading* reading, uint32
  * heard with goes on all the same. */
 static void add_buses(Harp* harp, uint32_t heard, const Reading* reading, uint32_t n_frames) {
   finish_bus(harp, 0, reading, n_frames);
+  add_noises(harp, 0, reading->n_taps, n_frames);
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     Line* const gain = &harp->channels[channel].gain;
     const bool is_heard = heard >> (1 + channel) & 1;

@@ -3,6 +3,7 @@
 #define HOOKE_CORE_HARP_HARP_PATCH_H
 
 #include "core/excite/exciter.h"
+#include "core/excite/variation.h"
 #include "core/voice/pickups.h"
 #include "core/voice/string_patch.h"
 
@@ -18,7 +19,9 @@ typedef struct {
                        hammers keep off the middle, and bows near the walls */
   double hardness;  /**< Of what plucks or strikes, or pressure of the bow, 0 to 1 */
   double resonance; /**< How much the bridge that all strings share moves, 0 to 1 */
-  double vibrato_hz; /**< How fast a vibrato is [Hz], > 0 */
+  double vibrato_hz;   /**< How fast a vibrato is [Hz], > 0 */
+  double noise;        /**< How loud what plucks or strikes is itself, 0 to 1; bows are not */
+  Variation variation; /**< How notes differ, bowed ones in place, pressure and level */
 } HarpPatch;
 
 #endif

@@ -3,6 +3,7 @@
 #define HOOKE_CORE_HARP_HARP_STATE_H
 
 #include "core/base/line.h"
+#include "core/excite/noise.h"
 #include "core/harp/harp_patch.h"
 #include "core/harp/harp_stereo.h"
 #include "core/harp/harp_string.h"
@@ -84,6 +85,7 @@ typedef struct Harp {
   double scales[HARP_CHANNELS][HARP_KEYS]; /**< Pitches of each channel's keys above A4
                                               [semitones]; NAN: none */
   Line level;
+  uint32_t n_notes; /**< That have been played since all was still */
   Pickups pickups;
   uint32_t n_fade;                  /**< Frames that the next fade will take */
   HarpString strings[HARP_STRINGS]; /**< Of every key, and then of spares */
@@ -93,10 +95,12 @@ typedef struct Harp {
   ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
   HarpBridge bridge;
   HarpStereo stereo;
-  bool is_bowed;   /**< Whether a note has been bowed since all was still */
-  double dc;       /**< What stands still, once a note has been bowed */
-  Reading reading; /**< How they were read last */
-  uint32_t apart;  /**< The channels that had a bus of their own then, a bit each */
+  NoiseMake noise_make;
+  Noise noises[HARP_CHANNELS]; /**< What fingers and hammers of each make themselves */
+  bool is_bowed;               /**< Whether a note has been bowed since all was still */
+  double dc;                   /**< What stands still, once a note has been bowed */
+  Reading reading;             /**< How they were read last */
+  uint32_t apart;              /**< The channels that had a bus of their own then, a bit each */
   float before[HARP_BUSES][CHAIN_MAX_TAPS]; /**< The last sample of each tap, where it is
                                                differentiated */
   Onset onsets[HARP_BUSES][CHAIN_MAX_TAPS]; /**< What hides that strings were pulled aside */

@@ -33,7 +33,7 @@ static void what_is_no_number_leaves_no_string(void** state) {
   static GuitarMixer mixer;
   const GuitarPatch patch = guitars_patch();
   assert_true(chain_size(GUITAR_MAX_MASSES) <= ROOM);
-  guitar_mixer_init(&mixer);
+  guitar_mixer_init(&mixer, RATE);
   guitar_mixer_set(&mixer, &patch, 0);
   for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
     guitar_string_init(&strings[w], &patch, RATE, w, memory + (size_t)2 * w * ROOM);

@@ -37,7 +37,9 @@ static void make_storm(Random* random, Event* events, uint32_t n_keys) {
 
 static GuitaristHow how_of(uint32_t value) {
   static const double strums_s[] = {0.0, 0.004, 0.02, 0.1};
-  return (GuitaristHow){value % 2 > 0, strums_s[value / 2 % 4], value / 8 % 2 * 80, value / 16 % 4};
+  const Variation variation = {value % 3 / 2.0, value};
+  return (GuitaristHow){value % 2 > 0, strums_s[value / 2 % 4], value / 8 % 2 * 80, value / 16 % 4,
+                        variation};
 }
 
 static GuitarPatch patch_of(uint32_t value) {

@@ -49,6 +49,9 @@ static const Pin pinned[] = {
     {"stiffness_tracking", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 4.0f, 0.0f},
     {"release_tracking", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 2.0f, 0.0f},
     {"tension", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 100.0f, 0.0f},
+    {"variation", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
+    {"take", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER, 1.0f, 999.0f, 1.0f},
+    {"noise", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };

@@ -60,6 +60,7 @@ GuitarPatch guitar_patch_of(const Host* host) {
       .capo = port(host, "capo"),
       .palm = port(host, "palm"),
       .course = port(host, "course"),
+      .noise = port(host, "noise"),
       .width = port(host, "width"),
   };
   for (int i = 0; i < 6; ++i) {
@@ -76,6 +77,7 @@ GuitaristHow guitar_how_of(const Host* host) {
       .strum_s = port(host, "strum") / 1000.0,
       .legato = (uint32_t)port(host, "legato"),
       .harmonic = (uint32_t)port(host, "harmonic"),
+      .variation = {port(host, "variation"), (uint32_t)port(host, "take")},
   };
 }
 
