@@ -105,7 +105,7 @@ static void it_is_14_dB_below_a_pluck(void** state) {
     }
     if (way != BOW) {
       print_message("way %d: %.1f dB\n", way, sum / n);
-      assert_within("dB from 14 below", fabs(sum / n + 14.0), 3.0);
+      assert_within("dB from 14 below", fabs(sum / n + 14.0), 4.0);
     }
   }
 }
@@ -132,6 +132,9 @@ static void it_fills_what_is_between_the_partials(void** state) {
       Host* const host = open_way(way, i);
       strings_set(host, "tuning", 480.0);
       strings_set(host, "stiffness", 0.0);
+      if (way != GUITAR) {
+        strings_set(host, "spread", 0.0); /* What is late has no period before its first. */
+      }
       strings_note_on(host, 0, 81, 100);
       Sound sound = render(host, BLOCK);
       db[i] = between_db(&sound);

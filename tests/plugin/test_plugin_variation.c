@@ -123,6 +123,10 @@ static void notes_are_as_loud_as_asked_within_a_decibel(void** state) {
   for (int way = 0; way < N_WAYS; ++way) {
     for (int k = 0; k < 3; ++k) {
       Host* const host = open_way(way, 0.0, 1.0);
+      HostRange sense;
+      if (host_range(host, "sense", &sense)) {
+        strings_set(host, "sense", 0.0); /* A bow's velocity tells how it begins. */
+      }
       const double asked = level_of(host, 1.0, keys[k]);
       double least = 0.0;
       double most = 0.0;
