@@ -1,0 +1,146 @@
+/* Presets that are named after real instruments die away as those do: T60 of partials 1 to 3 and 5
+ * to 8, in the median over keys and partials, beside that of recordings. */
+#include "tests/support/guitar_host.h"
+#include "tests/support/oracle.h"
+#include "tests/support/plugins.h"
+#include "tests/support/strings_host.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+enum {
+  RATE = 48000,
+  BLOCK = PLUGINS_BLOCK,
+  N_KEYS = 3,
+  SECONDS = 3,
+  WINDOW = 2048,
+  HOP = 1024,
+  MOST = 64
+};
+
+static const double PI = 3.14159265358979323846;
+
+/* How far a median may be from the recorded one. */
+static const double MOST_OFF = 0.3;
+
+/* From where on a decay is seen, and down to where [dB]. */
+static const double FLOOR = -50.0;
+
+typedef struct {
+  int plugin;
+  const char* preset;
+  double low_s, high_s; /* Recorded T60 of partials 1 to 3, and 5 to 8 */
+} Row;
+
+static const Row rows[] = {
+    {0, "Nylon Guitar", 5.7, 2.5},      {0, "Steel Guitar", 8.0, 4.0},
+    {0, "Concert Harp", 10.0, 2.6},     {0, "Felt Piano", 7.2, 7.8},
+    {0, "Iron Frame", 7.0, 8.0},        {0, "Harpsichord", 9.0, 6.0},
+    {0, "Hammered Dulcimer", 3.0, 1.8}, {0, "Upright Bass", 3.8, 4.1},
+    {0, "Finger Bass", 14.0, 10.0},     {0, "Jazz Electric", 8.0, 3.0},
+    {1, "Steel Acoustic", 8.0, 4.0},    {1, "Nylon Fingers", 5.7, 2.5},
+    {1, "Clean Neck", 8.0, 3.0},        {1, "Electric Bass", 14.0, 10.0},
+};
+
+/* A preset's own stiffness of a key. */
+static double stiffness_of(const Host* host, uint32_t key) {
+  const double least = 1e-6;
+  const double at_a4 = (double)host_get(host, "stiffness");
+  const double tracked = exp2((double)host_get(host, "stiffness_tracking") * (key - 69.0) / 12.0);
+  return at_a4 > 1.5 * least ? at_a4 * tracked : 0.0;
+}
+
+static double partial_hz(const Host* host, uint32_t key, int k) {
+  const double b = stiffness_of(host, key);
+  return k * 440.0 * exp2((key - 69.0) / 12.0) * sqrt((1.0 + b * k * k) / (1.0 + b));
+}
+
+static double level_db(const float* samples, double hz) {
+  double re = 0.0;
+  double im = 0.0;
+  for (int i = 0; i < WINDOW; ++i) {
+    const double window = 0.5 - 0.5 * cos(2.0 * PI * i / WINDOW);
+    re += window * (double)samples[i] * cos(2.0 * PI * hz * i / RATE);
+    im += window * (double)samples[i] * sin(2.0 * PI * hz * i / RATE);
+  }
+  return 10.0 * log10(re * re + im * im + 1e-30);
+}
+
+/* The straight line through the levels, from a tenth of a second on, as far as they are seen. */
+static double t60_of(const Sound* sound, double hz) {
+  double n = 0.0, t = 0.0, y = 0.0, tt = 0.0, ty = 0.0;
+  const size_t first = RATE / 10;
+  const double start = level_db(sound->left + first, hz);
+  for (size_t at = first; at + WINDOW <= sound->n_frames; at += HOP) {
+    const double db = level_db(sound->left + at, hz);
+    if (db < start + FLOOR) {
+      break;
+    }
+    const double now = (double)at / RATE;
+    n += 1.0;
+    t += now;
+    y += db;
+    tt += now * now;
+    ty += now * db;
+  }
+  return -60.0 * (n * tt - t * t) / (n * ty - t * y);
+}
+
+static int by_size(const void* a, const void* b) {
+  const double x = *(const double*)a;
+  const double y = *(const double*)b;
+  return (x > y) - (x < y);
+}
+
+static double median(double* values, size_t n) {
+  qsort(values, n, sizeof(double), by_size);
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+static void presets_die_away_as_recordings_do(void** state) {
+  (void)state;
+  static const uint32_t keys[N_KEYS] = {45, 60, 74};
+  double worst = 0.0;
+  for (size_t r = 0; r < sizeof(rows) / sizeof(rows[0]); ++r) {
+    const Row* const row = &rows[r];
+    Host* const host = plugins_open(row->plugin);
+    double low[MOST];
+    double high[MOST];
+    size_t n_low = 0;
+    size_t n_high = 0;
+    assert_true(host_preset(host, row->preset));
+    for (int k = 0; k < N_KEYS; ++k) {
+      Sound sound = sound_new(SECONDS * RATE);
+      strings_restart(host);
+      strings_note_on(host, 0, keys[k], 80);
+      strings_run(host, &sound, 0, sound.n_frames, BLOCK);
+      for (int p = 1; p <= 8; ++p) {
+        const double t60 = p == 4 ? 0.0 : t60_of(&sound, partial_hz(host, keys[k], p));
+        if (p <= 3) {
+          low[n_low++] = t60;
+        } else if (p >= 5) {
+          high[n_high++] = t60;
+        }
+      }
+      sound_free(&sound);
+    }
+    const double of_low = median(low, n_low);
+    const double of_high = median(high, n_high);
+    print_message("| %-18s | %5.1f / %4.1f | %5.1f / %4.1f |\n", row->preset, of_low, row->low_s,
+                  of_high, row->high_s);
+    worst = fmax(worst, fmax(fabs(of_low / row->low_s - 1.0), fabs(of_high / row->high_s - 1.0)));
+    host_free(host);
+  }
+  assert_within("median of T60, off the recorded", worst, MOST_OFF);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(presets_die_away_as_recordings_do),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
