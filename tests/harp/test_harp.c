@@ -157,28 +157,6 @@ static void no_string_sleeps_before_120_db(void** state) {
   assert_within("fundamental when put to sleep, of its loudest", worst, 1e-6);
 }
 
-static void plucking_again_adds(void** state) {
-  (void)state;
-  enum { GAP = 777, FRAMES = 5000 };
-  static float twice[FRAMES];
-  static float once[FRAMES];
-  Harp* const harp = new_harp(48000.0, &plain);
-  harp_note_on(harp, 0, 50, 100);
-  harp_run(harp, FRAMES, once, right);
-  harp_reset(harp);
-  harp_note_on(harp, 0, 50, 100);
-  harp_run(harp, GAP, twice, right);
-  harp_note_on(harp, 0, 50, 100);
-  harp_run(harp, FRAMES - GAP, twice + GAP, right);
-  double worst = 0.0;
-  for (uint32_t n = 0; n < FRAMES; ++n) {
-    const double sum = (double)once[n] + (n < GAP ? 0.0 : (double)once[n - GAP]);
-    worst = fmax(worst, fabs((double)twice[n] - sum));
-  }
-  assert_within("sum of two plucks, of 0.25", worst, 0.25 * FRAMES * 0.1 * (double)FLT_EPSILON);
-  harp_free(harp);
-}
-
 /* τ of a string that rings and of one that is damped [s]. */
 static const double RINGS_S = 1.0;
 static const double DAMPED_S = 0.05;
@@ -292,7 +270,6 @@ int main(void) {
       cmocka_unit_test(key_at_or_above_nyquist_is_silent),
       cmocka_unit_test(dead_string_sleeps_in_exact_zeros),
       cmocka_unit_test(no_string_sleeps_before_120_db),
-      cmocka_unit_test(plucking_again_adds),
       cmocka_unit_test(damper_falls_when_the_key_goes_up),
       cmocka_unit_test(pedal_holds_what_is_let_go),
       cmocka_unit_test(key_down_again_is_not_let_go_by_the_pedal),

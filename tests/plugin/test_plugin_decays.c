@@ -138,9 +138,70 @@ static void presets_die_away_as_recordings_do(void** state) {
   assert_within("median of T60, off the recorded", worst, MOST_OFF);
 }
 
+/* The lowest string of a preset has partials up to 8 kHz. */
+static void low_strings_reach_eight_kilohertz(void** state) {
+  (void)state;
+  static const struct {
+    int plugin;
+    const char* preset;
+    uint32_t key;
+  } low[] = {{0, "Nylon Guitar", 40},  {0, "Steel Guitar", 40},   {0, "Clean Electric", 40},
+             {0, "Finger Bass", 28},   {0, "Pick Bass", 28},      {0, "Felt Piano", 33},
+             {0, "Iron Frame", 33},    {0, "Harpsichord", 33},    {1, "Clean Bridge", 40},
+             {1, "Clean Neck", 40},    {1, "Steel Acoustic", 40}, {1, "Nylon Fingers", 40},
+             {1, "Twelve-String", 40}, {1, "Electric Bass", 28}};
+  for (size_t i = 0; i < sizeof(low) / sizeof(low[0]); ++i) {
+    Host* const host = plugins_open(low[i].plugin);
+    Sound sound = sound_new(RATE / 10);
+    assert_true(host_preset(host, low[i].preset));
+    strings_set(host, low[i].plugin ? "course" : "spread", 0.0);
+    strings_note_on(host, 0, low[i].key, 100);
+    strings_run(host, &sound, 0, sound.n_frames, BLOCK);
+    const double masses = (double)(host_get(host, "mass_count") / host_get(host, "sounding"));
+    const double hz = masses * 440.0 * exp2((low[i].key - 69.0) / 12.0);
+    print_message("%-16s %5.0f masses, %5.0f Hz\n", low[i].preset, masses, hz);
+    assert_true(hz >= 8000.0);
+    sound_free(&sound);
+    host_free(host);
+  }
+}
+
+/* What lies above 2 kHz at key 40, of all [dB], against recordings: no less than 6 dB under them.
+ */
+static void low_strings_are_as_bright_as_recordings(void** state) {
+  (void)state;
+  static const struct {
+    const char* preset;
+    double recorded_db;
+  } bright[] = {{"Nylon Guitar", -37.0}, {"Iron Frame", -20.0}, {"Upright Bass", -53.0}};
+  for (size_t i = 0; i < sizeof(bright) / sizeof(bright[0]); ++i) {
+    Host* const host = plugins_open(0);
+    Sound sound = sound_new(RATE / 2);
+    double high = 0.0;
+    double all = 0.0;
+    assert_true(host_preset(host, bright[i].preset));
+    strings_set(host, "resonance", 0.0);
+    strings_note_on(host, 0, 40, 100);
+    strings_run(host, &sound, 0, sound.n_frames, BLOCK);
+    for (int k = 1; k < 200 && partial_hz(host, 40, k) < 12000.0; ++k) {
+      const double power =
+          pow(10.0, 0.1 * level_db(sound.left + RATE / 20, partial_hz(host, 40, k)));
+      all += power;
+      high += partial_hz(host, 40, k) > 2000.0 ? power : 0.0;
+    }
+    const double db = 10.0 * log10(high / all);
+    print_message("%-16s %5.1f dB, recorded %5.1f\n", bright[i].preset, db, bright[i].recorded_db);
+    assert_true(db > bright[i].recorded_db - 6.0);
+    sound_free(&sound);
+    host_free(host);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(presets_die_away_as_recordings_do),
+      cmocka_unit_test(low_strings_reach_eight_kilohertz),
+      cmocka_unit_test(low_strings_are_as_bright_as_recordings),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
