@@ -4,6 +4,7 @@
 #include "core/base/maths.h"
 #include "core/harp/harp_bridge.h"
 #include "core/harp/harp_channels.h"
+#include "core/harp/harp_group.h"
 #include "core/harp/harp_mixer.h"
 
 #include <assert.h>
@@ -17,7 +18,7 @@ static const double SOFT_GAIN = 0.6;
 
 static void retune(Harp* harp, HarpString* string, uint32_t n_glide) {
   string->lift = harp_channels_lift(harp, string);
-  harp_string_retune(string, n_glide);
+  harp_group_retune(string, n_glide);
 }
 
 static void retune_all(Harp* harp, uint32_t n_glide) {
@@ -48,13 +49,21 @@ static void set_level(Harp* harp, uint32_t n_frames) {
   line_to(&harp->level, harp->patch.level, n_frames);
 }
 
-/* A scale may give any key any pitch, so all strings have the same memory. */
+static size_t memory_size(void) {
+  return HARP_STRINGS * (chain_size(CHAIN_MAX_MASSES) + harp_group_size());
+}
+
+/* A scale may give any key any pitch, so the strings of all have the same memory.  It is touched
+ * here, so that a first note does not have to wait for pages. */
 static void lay_out(Harp* harp, char* memory) {
   const size_t size = chain_size(CHAIN_MAX_MASSES);
-  memset(memory, 0, HARP_STRINGS * size);
+  memset(memory, 0, memory_size());
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    harp_string_init(&harp->strings[i], &harp->patch, harp->rate_hz, i % HARP_KEYS,
-                     memory + i * size, CHAIN_MAX_MASSES, &harp->bridge.bridge);
+    HarpString* const string = &harp->strings[i];
+    harp_string_init(string, &harp->patch, harp->rate_hz, i % HARP_KEYS, memory, CHAIN_MAX_MASSES,
+                     &harp->bridge.bridge);
+    harp_group_init(string, harp->followers[i], memory + size);
+    memory += size + harp_group_size();
   }
 }
 
@@ -71,7 +80,7 @@ Harp* harp_new(double rate_hz) {
   }
   harp->rate_hz = rate_hz;
   harp->n_gesture = voice_gesture_frames(rate_hz);
-  harp->memory = aligned_new(CHAIN_ALIGNMENT, HARP_STRINGS * chain_size(CHAIN_MAX_MASSES));
+  harp->memory = aligned_new(CHAIN_ALIGNMENT, memory_size());
   if (!harp->memory) {
     harp_free(harp);
     return NULL;
@@ -97,9 +106,10 @@ static void tune(Harp* harp, HarpString* string) {
 
 void harp_reset(Harp* harp) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    harp_string_rest(&harp->strings[i]);
+    harp_group_rest(&harp->strings[i]);
     tune(harp, &harp->strings[i]);
   }
+  harp->is_followed = false;
   harp_channels_reset(harp->channels);
   harp_bridge_init(&harp->bridge, harp->rate_hz);
   harp->reading.n_taps = 0;
@@ -110,7 +120,8 @@ void harp_reset(Harp* harp) {
 
 /* Whether what rings has the same coefficients under both. */
 static bool is_same_string(const HarpPatch* a, const HarpPatch* b) {
-  return string_patch_rings_alike(&a->string, &b->string) && a->resonance == b->resonance;
+  return string_patch_rings_alike(&a->string, &b->string) && a->resonance == b->resonance &&
+         harp_members_lie_alike(a, b);
 }
 
 void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames) {
@@ -131,7 +142,7 @@ void harp_set_scale(Harp* harp, uint32_t channel, const double semitones[HARP_KE
   memcpy(harp->scales[channel], semitones, sizeof(harp->scales[channel]));
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (string->channel == channel && (is_live || !string->voice.is_awake) &&
+    if (string->channel == channel && (is_live || !harp_group_is_awake(string)) &&
         semitones[string->key] != string->semitones) {
       tune(harp, string);
       retune(harp, string, harp->n_gesture);
@@ -171,14 +182,15 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   harp->is_bowed = harp->patch.exciter == EXCITER_BOW || (harp->is_bowed && !is_still(harp));
   Pluck pluck = pluck_of(harp, &harp->channels[channel], velocity);
   pluck.amplitude *= louder;
-  harp_string_play(string, pluck, harp->n_gesture);
+  harp_group_play(string, pluck, harp->n_gesture);
+  harp->is_followed = harp->is_followed || string->is_followed;
 }
 
 /* Its key is up: the damper falls, as far as it may. */
 static void raise_key(Harp* harp, HarpString* string) {
   const bool was_leaned_on = string->leaned_on > 0.0;
   string->leaned_on = 0.0;
-  harp_string_lift(string);
+  harp_group_lift(string);
   if (was_leaned_on || string->lift != harp_channels_lift(harp, string) ||
       tie_is_on(&string->voice.tie)) {
     retune(harp, string, harp->n_gesture);
@@ -305,7 +317,7 @@ void harp_all_sound_off(Harp* harp, uint32_t channel) {
     if (string->channel == channel && !string->holders) {
       string->is_caught = false;
       string->lift = 0.0;
-      harp_string_choke(string, harp->n_gesture);
+      harp_group_choke(string, harp->n_gesture);
     }
   }
 }
@@ -320,6 +332,9 @@ VoiceReport harp_report(const Harp* harp) {
   VoiceReport report = {.headroom = harp_bridge_headroom(harp)};
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     voice_report(&harp->strings[i].voice, &report);
+  }
+  for (uint32_t i = 0; harp->is_followed && i < HARP_STRINGS; ++i) {
+    harp_group_report(&harp->strings[i], &report);
   }
   return report;
 }

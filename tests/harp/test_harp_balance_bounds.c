@@ -32,7 +32,8 @@ static HarpBalance string_of(const HarpPatch* patch, double rate_hz, uint32_t ke
                                .loss = patch->string.loss,
                                .inharmonicity = patch->string.inharmonicity,
                                .partials = patch->string.partials};
-  return (HarpBalance){target, tuning_max_masses(&target, patch->string.max_masses), key, 0.25};
+  return (HarpBalance){target, tuning_max_masses(&target, patch->string.max_masses), key, 0.25,
+                       NULL};
 }
 
 /* |H|² of both filters as BS.1770 prints them, for 48 kHz. */

@@ -79,6 +79,8 @@ HarpPatch settings_patch(const Setting* setting) {
       .string.release_s = v[SETTING_RELEASE],
       .string.tuning_hz = v[SETTING_TUNING],
       .string.max_masses = (uint32_t)lround(v[SETTING_MASSES]),
+      .unisons = 1,
+      .second_decay = 1.0,
   };
 }
 
