@@ -23,7 +23,7 @@ enum { COMMON_STREAM_PORTS(STREAM_ENUM) COMMON_CONTROL_PORTS(CONTROL_ENUM) };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 
-enum { PORTS_MAX = 40 /**< Most ports of an instrument */ };
+enum { PORTS_MAX = 64 /**< Most ports of an instrument */ };
 
 /** What a control input may hold. */
 typedef struct {

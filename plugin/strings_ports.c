@@ -33,6 +33,11 @@ HarpPatch strings_ports_patch(const Controls* controls) {
       .hardness = (double)v[STRINGS_PORT_HARDNESS],
       .resonance = (double)v[STRINGS_PORT_RESONANCE],
       .vibrato_hz = (double)v[STRINGS_PORT_VIBRATO_RATE],
+      .unisons = ports_whole(v[STRINGS_PORT_UNISONS]),
+      .unison_detune = (double)v[STRINGS_PORT_UNISON_DETUNE],
+      .second = (double)v[STRINGS_PORT_SECOND],
+      .second_detune = (double)v[STRINGS_PORT_SECOND_DETUNE],
+      .second_decay = (double)v[STRINGS_PORT_SECOND_DECAY],
   };
 }
 

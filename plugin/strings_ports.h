@@ -37,12 +37,17 @@
   X(SENSE, sense, 23, 0.0f, 2.0f, 0.0f)                                                            \
   X(LIMITER, limiter, 24, 0.0f, 1.0f, 1.0f)                                                        \
   X(RESONANCE, resonance, 25, 0.0f, 1.0f, 0.0f)                                                    \
-  X(VIBRATO_RATE, vibrato_rate, 26, 0.5f, 12.0f, 5.5f)
+  X(VIBRATO_RATE, vibrato_rate, 26, 0.5f, 12.0f, 5.5f)                                             \
+  X(UNISONS, unisons, 28, 1.0f, 3.0f, 1.0f)                                                        \
+  X(UNISON_DETUNE, unison_detune, 29, 0.0f, 20.0f, 2.0f)                                           \
+  X(SECOND, second, 30, 0.0f, 1.0f, 0.0f)                                                          \
+  X(SECOND_DETUNE, second_detune, 31, 0.0f, 30.0f, 5.0f)                                           \
+  X(SECOND_DECAY, second_decay, 32, 0.25f, 4.0f, 1.0f)
 
 #define STREAM_ENUM(name, symbol, index) STRINGS_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   STRINGS_PORT_##name = (index),
-enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 28 };
+enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 33 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

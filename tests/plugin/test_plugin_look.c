@@ -24,12 +24,14 @@ typedef struct {
 } Shown;
 
 static const Shown of_strings[] = {
-    {"level", "level"},        {"exciter", "touch"},   {"damping", "string"},
-    {"hardness", "touch"},     {"loss", "string"},     {"pluck", "touch"},
-    {"pickup", "pickups"},     {"sense", "pickups"},   {"stiffness", "string"},
-    {"resonance", "string"},   {"release", "touch"},   {"tracking", "string"},
-    {"spread", "pickups"},     {"partials", "string"}, {"masses", "string"},
-    {"vibrato_rate", "touch"}, {"tuning", "string"},   {"limiter", "level"},
+    {"level", "level"},          {"exciter", "touch"},   {"damping", "string"},
+    {"hardness", "touch"},       {"loss", "string"},     {"pluck", "touch"},
+    {"pickup", "pickups"},       {"sense", "pickups"},   {"stiffness", "string"},
+    {"resonance", "string"},     {"release", "touch"},   {"tracking", "string"},
+    {"spread", "pickups"},       {"partials", "string"}, {"masses", "string"},
+    {"vibrato_rate", "touch"},   {"tuning", "string"},   {"unisons", "unison"},
+    {"unison_detune", "unison"}, {"second", "unison"},   {"second_detune", "unison"},
+    {"second_decay", "unison"},  {"limiter", "level"},
 };
 
 static const Shown of_guitar[] = {
