@@ -60,7 +60,7 @@ typedef struct {
   double begun;
   double whole;
   double plain; /* As it begins, not weighed */
-  double alone; /* Over the whole time, exactly: of one, and of all members */
+  double alone; /* Over the whole time, exactly: of one, and of all members, where there are more */
   double together;
 } Power;
 
@@ -235,5 +235,5 @@ double harp_balance_gain(const HarpPatch* patch, const HarpBalance* string, Pluc
   const double most = fmin(HARP_BALANCE_MOST, LARGEST / sqrt(2.0 * power.plain));
   const double alone =
       gain < most ? fmax(gain, 1.0 / HARP_BALANCE_MOST) : fmax(most, 1.0 / HARP_BALANCE_MOST);
-  return heard.members ? alone * sqrt(power.alone / power.together) : alone;
+  return power.together > 0.0 ? alone * sqrt(power.alone / power.together) : alone;
 }

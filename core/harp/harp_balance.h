@@ -44,7 +44,8 @@ typedef struct {
    of what one dies faster than that, at most 10 dB are made up for.
 
    @param pluck  As it is given to harp_group_play()
-   @return 1/HARP_BALANCE_MOST to HARP_BALANCE_MOST
+   @return 1/HARP_BALANCE_MOST to HARP_BALANCE_MOST; of what is played with others 1/2.5 of that
+   to 2.5 times as much, for what is heard of them is not in step
 */
 double harp_balance_gain(const HarpPatch* patch, const HarpBalance* string, Pluck pluck);
 
