@@ -39,6 +39,11 @@ HarpPatch strings_ports_patch(const Controls* controls) {
       .vibrato_hz = (double)v[STRINGS_PORT_VIBRATO_RATE],
       .noise = (double)v[STRINGS_PORT_NOISE],
       .variation = {(double)v[STRINGS_PORT_VARIATION], ports_whole(v[STRINGS_PORT_TAKE])},
+      .unisons = ports_whole(v[STRINGS_PORT_UNISONS]),
+      .unison_detune = (double)v[STRINGS_PORT_UNISON_DETUNE],
+      .second = (double)v[STRINGS_PORT_SECOND],
+      .second_detune = (double)v[STRINGS_PORT_SECOND_DETUNE],
+      .second_decay = (double)v[STRINGS_PORT_SECOND_DECAY],
   };
 }
 

@@ -44,12 +44,17 @@
   X(TENSION, tension, 31, 0.0f, 100.0f, 0.0f)                                                      \
   X(VARIATION, variation, 32, 0.0f, 1.0f, 0.0f)                                                    \
   X(TAKE, take, 33, 1.0f, 999.0f, 1.0f)                                                            \
-  X(NOISE, noise, 34, 0.0f, 1.0f, 0.0f)
+  X(NOISE, noise, 34, 0.0f, 1.0f, 0.0f)                                                            \
+  X(UNISONS, unisons, 35, 1.0f, 3.0f, 1.0f)                                                        \
+  X(UNISON_DETUNE, unison_detune, 36, 0.0f, 20.0f, 2.0f)                                           \
+  X(SECOND, second, 37, 0.0f, 1.0f, 0.0f)                                                          \
+  X(SECOND_DETUNE, second_detune, 38, 0.0f, 30.0f, 5.0f)                                           \
+  X(SECOND_DECAY, second_decay, 39, 0.25f, 4.0f, 1.0f)
 
 #define STREAM_ENUM(name, symbol, index) STRINGS_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   STRINGS_PORT_##name = (index),
-enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 35 };
+enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 40 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

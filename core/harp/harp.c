@@ -5,6 +5,7 @@
 #include "core/base/maths.h"
 #include "core/harp/harp_bridge.h"
 #include "core/harp/harp_channels.h"
+#include "core/harp/harp_group.h"
 #include "core/harp/harp_mixer.h"
 
 #include <assert.h>
@@ -18,7 +19,7 @@ static const double SOFT_GAIN = 0.6;
 
 static void retune(Harp* harp, HarpString* string, uint32_t n_glide) {
   string->lift = harp_channels_lift(harp, string);
-  harp_string_retune(string, n_glide);
+  harp_group_retune(string, n_glide);
 }
 
 static void retune_all(Harp* harp, uint32_t n_glide) {
@@ -50,13 +51,21 @@ static void set_level(Harp* harp, uint32_t n_frames) {
   harp_stereo_set(&harp->stereo, harp->patch.spread, n_frames);
 }
 
-/* A scale may give any key any pitch, so all strings have the same memory. */
+static size_t memory_size(void) {
+  return HARP_STRINGS * (chain_size(CHAIN_MAX_MASSES) + harp_group_size());
+}
+
+/* A scale may give any key any pitch, so the strings of all have the same memory.  It is touched
+ * here, so that a first note does not have to wait for pages. */
 static void lay_out(Harp* harp, char* memory) {
   const size_t size = chain_size(CHAIN_MAX_MASSES);
-  memset(memory, 0, HARP_STRINGS * size);
+  memset(memory, 0, memory_size());
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    harp_string_init(&harp->strings[i], &harp->patch, harp->rate_hz, i % HARP_KEYS,
-                     memory + i * size, CHAIN_MAX_MASSES, &harp->bridge.bridge);
+    HarpString* const string = &harp->strings[i];
+    harp_string_init(string, &harp->patch, harp->rate_hz, i % HARP_KEYS, memory, CHAIN_MAX_MASSES,
+                     &harp->bridge.bridge);
+    harp_group_init(string, harp->followers[i], memory + size);
+    memory += size + harp_group_size();
   }
 }
 
@@ -74,7 +83,7 @@ Harp* harp_new(double rate_hz) {
   harp->rate_hz = rate_hz;
   harp->n_gesture = voice_gesture_frames(rate_hz);
   harp->onset = onset_pole(rate_hz);
-  harp->memory = aligned_new(CHAIN_ALIGNMENT, HARP_STRINGS * chain_size(CHAIN_MAX_MASSES));
+  harp->memory = aligned_new(CHAIN_ALIGNMENT, memory_size());
   if (!harp->memory || !harp_stereo_new(&harp->stereo, rate_hz)) {
     harp_free(harp);
     return NULL;
@@ -102,9 +111,10 @@ static void tune(Harp* harp, HarpString* string) {
 
 void harp_reset(Harp* harp) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    harp_string_rest(&harp->strings[i]);
+    harp_group_rest(&harp->strings[i]);
     tune(harp, &harp->strings[i]);
   }
+  harp->is_followed = false;
   harp_channels_reset(harp->channels);
   harp_bridge_init(&harp->bridge, harp->rate_hz);
   harp->reading.n_taps = 0;
@@ -118,7 +128,8 @@ void harp_reset(Harp* harp) {
 
 /* Whether what rings has the same coefficients under both. */
 static bool is_same_string(const HarpPatch* a, const HarpPatch* b) {
-  return string_patch_rings_alike(&a->string, &b->string) && a->resonance == b->resonance;
+  return string_patch_rings_alike(&a->string, &b->string) && a->resonance == b->resonance &&
+         harp_members_lie_alike(a, b);
 }
 
 void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames) {
@@ -139,7 +150,7 @@ void harp_set_scale(Harp* harp, uint32_t channel, const double semitones[HARP_KE
   memcpy(harp->scales[channel], semitones, sizeof(harp->scales[channel]));
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    if (string->channel == channel && (is_live || !string->voice.is_awake) &&
+    if (string->channel == channel && (is_live || !harp_group_is_awake(string)) &&
         semitones[string->key] != string->semitones) {
       tune(harp, string);
       retune(harp, string, harp->n_gesture);
@@ -155,7 +166,7 @@ static bool is_still(const Harp* harp) {
 static bool is_played(const Harp* harp) {
   bool is_played = false;
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    is_played = is_played || harp->strings[i].voice.is_awake || harp->strings[i].holders;
+    is_played = is_played || harp_group_is_awake(&harp->strings[i]) || harp->strings[i].holders;
   }
   return is_played;
 }
@@ -174,12 +185,10 @@ static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t vel
   };
 }
 
-/* The finger that plucks a string stops it first. */
+/* The finger that plucks a string stops it first, and all that follow it. */
 static void stop(Harp* harp, HarpString* string) {
-  if (string->voice.is_awake) {
-    harp_mixer_hide_end(harp, string);
-    voice_sleep(&string->voice);
-  }
+  harp_mixer_hide_end(harp, string);
+  harp_group_sleep(string);
 }
 
 static void make_noise(Harp* harp, uint32_t channel, Pluck pluck) {
@@ -222,8 +231,9 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   const Pluck own = variation_of(harp->patch.variation, key, harp->n_notes, asked);
   Pluck pluck = own;
   pluck.amplitude *= louder;
-  harp_string_play(string, pluck, harp->n_gesture);
-  if (is_plucked && string->voice.is_awake) {
+  harp_group_play(string, pluck, harp->n_gesture);
+  harp->is_followed = harp->is_followed || string->is_followed;
+  if (is_plucked) {
     harp_mixer_hide_start(harp, string);
   }
   if (string->voice.is_awake && !string->voice.is_choked) {
@@ -235,7 +245,7 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
 static void raise_key(Harp* harp, HarpString* string) {
   const bool was_leaned_on = string->leaned_on > 0.0;
   string->leaned_on = 0.0;
-  harp_string_lift(string);
+  harp_group_lift(string);
   if (was_leaned_on || string->lift != harp_channels_lift(harp, string) ||
       tie_is_on(&string->voice.tie)) {
     retune(harp, string, harp->n_gesture);
@@ -363,7 +373,7 @@ void harp_all_sound_off(Harp* harp, uint32_t channel) {
     if (string->channel == channel && !string->holders) {
       string->is_caught = false;
       string->lift = 0.0;
-      harp_string_choke(string, harp->n_gesture);
+      harp_group_choke(string, harp->n_gesture);
     }
   }
 }
@@ -378,6 +388,9 @@ VoiceReport harp_report(const Harp* harp) {
   VoiceReport report = {.headroom = harp_bridge_headroom(harp)};
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     voice_report(&harp->strings[i].voice, &report);
+  }
+  for (uint32_t i = 0; harp->is_followed && i < HARP_STRINGS; ++i) {
+    harp_group_report(&harp->strings[i], &report);
   }
   return report;
 }

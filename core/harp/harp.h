@@ -6,6 +6,9 @@
    they share one, which sounds until the last of them lets go. It then does what the one that
    played it last does, and is heard with the gain that it was until it has died away.
 
+   A key may play more strings than its own, and a second direction of each: core/harp/harp_group.h.
+   What is said of a string here is so of all of them, but for the bridge.
+
    No string is ever stolen.  A string that has died away is at rest in exact zeros and costs
    nothing.  The samples do not depend on how the frames are cut into calls of harp_run().
 
@@ -46,8 +49,8 @@ void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames);
    else keeps its pitch until it is played again; what is at rest is tuned at once.
 
    A key then has tuning_hz · 2^((semitones + bend) / 12).  Damping and its tracking stay with the
-   key.  Every string has memory for CHAIN_MAX_MASSES, so that a scale takes none of its masses from
-   it, however low.  A key without a pitch is silent: what rings there is choked.
+   key.  Every key's string has memory for CHAIN_MAX_MASSES, so that a scale takes none of its
+   masses from it, however low.  A key without a pitch is silent: what rings there is choked.
 
    @param semitones  Of every key above A4, in any order; NAN: it has no pitch.  `key − 69` is equal
    temperament, as after harp_new()

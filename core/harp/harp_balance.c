@@ -5,6 +5,7 @@
 #include "core/string/pickup.h"
 
 #include <math.h>
+#include <stddef.h>
 
 /* Power, of the amplitude's square: that of the patch as the panel has it at first, key 60. */
 static const double POWER = 0.5;
@@ -48,7 +49,9 @@ typedef struct {
   PickupType pickup_type;
   double weights[2];
   double rate_hz;
-  double both; /* What both sides have of the square of what is read */
+  double both;               /* What both sides have of the square of what is read */
+  const HarpMember* members; /* NULL: one */
+  bool is_held;              /* None of them dies */
 } Heard;
 
 /* Sums over the modes, as they begin and over the whole time. */
@@ -56,6 +59,8 @@ typedef struct {
   double begun;
   double whole;
   double plain; /* As it begins, not weighed */
+  double alone; /* Over the whole time, exactly: of one, and of all members, where there are more */
+  double together;
 } Power;
 
 /* Gain squared of the filters of BS.1770 at a frequency squared, as they are before they are made
@@ -75,6 +80,8 @@ static double k_weight(double square) {
   return over * square * square / (under * (low * low + LOW / LOW_Q * square));
 }
 
+static const HarpMember one[HARP_MEMBERS] = {{.share = 1.0, .decay = 1.0}};
+
 /* Mean of e^(−2yt) for t from 0 to 1, within 0.2 dB. */
 static double kept(double y) {
   return 1.0 / (y + sqrt(1.0 + y * y));
@@ -91,6 +98,15 @@ static double square_read(const Heard* heard, const double* sines, double a) {
   return heard->both * read * read * (heard->pickup_type == PICKUP_VELOCITY ? a : 1.0);
 }
 
+/* And what all members make of a mode that is as loud as `weighed` when it begins. */
+static void add_together(Power* power, const Heard* heard, Pole mode, double weighed) {
+  const double n_frames = WINDOW_S * heard->rate_hz;
+  const double fall = heard->is_held ? 0.0 : 0.5 * mode.g * n_frames;
+  const double turn = sqrt(square_of_angle(mode.a)) * n_frames;
+  power->alone += weighed * harp_members_kept(one, fall, turn);
+  power->together += weighed * harp_members_kept(heard->members, fall, turn);
+}
+
 /* Add `n` modes that are all as `k` is. */
 static void add(Power* power, const Heard* heard, uint32_t k, const double* turned, double n) {
   const StringCoefs* const c = &heard->coefs;
@@ -104,6 +120,9 @@ static void add(Power* power, const Heard* heard, uint32_t k, const double* turn
   power->plain += plain;
   power->begun += weighed;
   power->whole += weighed * kept(0.5 * mode.g * WINDOW_S * heard->rate_hz);
+  if (heard->members) {
+    add_together(power, heard, mode, weighed);
+  }
 }
 
 static void turn_to(Turns* turns, double k) {
@@ -185,6 +204,8 @@ double harp_balance_gain(const HarpPatch* patch, const HarpBalance* string, Pluc
   if (tuning_solve(&string->target, string->n_masses, &heard.coefs)) {
     return 1.0;
   }
+  heard.members = string->members && string->members[0].share < 1.0 ? string->members : NULL;
+  heard.is_held = patch->exciter == EXCITER_BOW;
   heard.spectrum = spectrum_for(patch, string, pluck);
   turns.angle[EXCITED] = heard.spectrum.angles[0];
   turns.angle[EXCITED + 1] = heard.spectrum.angles[1];
@@ -199,5 +220,7 @@ double harp_balance_gain(const HarpPatch* patch, const HarpBalance* string, Pluc
           : fmin(fmax(power.whole / power.begun, usual / MOST_DECAY), usual * MOST_DECAY);
   const double gain = sqrt(POWER * usual / (power.begun * share));
   const double most = fmin(HARP_BALANCE_MOST, LARGEST / sqrt(2.0 * power.plain));
-  return gain < most ? fmax(gain, 1.0 / HARP_BALANCE_MOST) : fmax(most, 1.0 / HARP_BALANCE_MOST);
+  const double alone =
+      gain < most ? fmax(gain, 1.0 / HARP_BALANCE_MOST) : fmax(most, 1.0 / HARP_BALANCE_MOST);
+  return power.together > 0.0 ? alone * sqrt(power.alone / power.together) : alone;
 }

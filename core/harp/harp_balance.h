@@ -15,6 +15,7 @@
 #define HOOKE_CORE_HARP_HARP_BALANCE_H
 
 #include "core/excite/pluck.h"
+#include "core/harp/harp_members.h"
 #include "core/harp/harp_patch.h"
 #include "core/string/tuning.h"
 
@@ -25,10 +26,12 @@
 
 /** The string that is to be played. */
 typedef struct {
-  TuningTarget target; /**< Its own pitch and decay, no damper at it */
-  uint32_t n_masses;   /**< N ≥ 1 */
-  uint32_t key;        /**< Whose usual pitch pickups of velocity are weighed for */
-  double hammer_mass;  /**< Of what strikes it, as a share of its own */
+  TuningTarget target;       /**< Its own pitch and decay, no damper at it */
+  uint32_t n_masses;         /**< N ≥ 1 */
+  uint32_t key;              /**< Whose usual pitch pickups of velocity are weighed for */
+  double hammer_mass;        /**< Of what strikes it, as a share of its own */
+  const HarpMember* members; /**< What is played with it, HARP_MEMBERS, itself the first; NULL: it
+                                is alone */
 } HarpBalance;
 
 /**
@@ -40,8 +43,9 @@ typedef struct {
    as that of key 60 keeps of its own in 0.4 s.  So strings that are all damped more are all softer;
    of what one dies faster than that, at most 10 dB are made up for.
 
-   @param pluck  As it is given to harp_string_play()
-   @return 1/HARP_BALANCE_MOST to HARP_BALANCE_MOST
+   @param pluck  As it is given to harp_group_play()
+   @return 1/HARP_BALANCE_MOST to HARP_BALANCE_MOST; of what is played with others 1/2.5 of that
+   to 2.5 times as much, for what is heard of them is not in step
 */
 double harp_balance_gain(const HarpPatch* patch, const HarpBalance* string, Pluck pluck);
 

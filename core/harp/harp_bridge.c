@@ -2,6 +2,7 @@
 
 #include "core/base/maths.h"
 #include "core/harp/harp_channels.h"
+#include "core/harp/harp_group.h"
 #include "core/string/chain_numbers.h"
 
 #include <math.h>
@@ -278,15 +279,15 @@ static bool is_waiting(const Harp* harp, const HarpString* string) {
          !isnan(string->semitones);
 }
 
-/* It is then the string of the channel that lifts its damper. */
+/* It is then the string of the channel that lifts its damper, unless others of its group ring. */
 static void wake_string(Harp* harp, HarpString* string) {
-  if (!string->holders && !string->is_caught) {
+  if (!string->holders && !string->is_caught && !harp_group_is_awake(string)) {
     string->channel = harp_channels_pedal(harp);
     string->touch = harp->channels[string->channel].touch;
     string->is_let_go = false;
   }
   string->lift = harp_channels_lift(harp, string);
-  harp_string_wake(string, harp->n_gesture);
+  harp_group_wake(string, harp->n_gesture);
 }
 
 static void wake(Harp* harp) {

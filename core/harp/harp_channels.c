@@ -1,5 +1,7 @@
 #include "core/harp/harp_channels.h"
 
+#include "core/harp/harp_group.h"
+
 #include <math.h>
 
 /* More could be more than the numbers of a string hold. */
@@ -35,7 +37,7 @@ static double gain_of(const Harp* harp, uint32_t channel) {
 
 /* Whether nobody holds it, and its motion is as loud with the channel as it is now. */
 static bool is_free_for(const Harp* harp, const HarpString* string, uint32_t channel) {
-  return !string->holders && (!string->voice.is_awake ||
+  return !string->holders && (!harp_group_is_awake(string) ||
                               gain_of(harp, harp_channels_heard(string)) == gain_of(harp, channel));
 }
 
@@ -44,10 +46,10 @@ static HarpString* find_spare(Harp* harp, uint32_t channel, uint32_t key) {
   HarpString* found = NULL;
   for (uint32_t i = HARP_KEYS; i < HARP_STRINGS; ++i) {
     HarpString* const spare = &harp->strings[i];
-    if (spare->voice.is_awake && spare->key == key && is_free_for(harp, spare, channel)) {
+    if (harp_group_is_awake(spare) && spare->key == key && is_free_for(harp, spare, channel)) {
       return spare;
     }
-    if (!spare->holders && !spare->voice.is_awake && !found) {
+    if (!spare->holders && !harp_group_is_awake(spare) && !found) {
       found = spare;
     }
   }
@@ -75,7 +77,7 @@ double harp_channels_hand(const Harp* harp, HarpString* string, uint32_t channel
   const uint32_t heard = harp_channels_heard(string);
   const double old = gain_of(harp, heard);
   const double gain = gain_of(harp, channel);
-  const bool would_step = string->voice.is_awake && old != gain && (old > 0.0 || !is_played);
+  const bool would_step = harp_group_is_awake(string) && old != gain && (old > 0.0 || !is_played);
   string->lender = would_step ? 1 + heard : 0;
   string->channel = channel;
   return would_step && is_played ? fmin(gain / old, MOST_LOUDER) : 1.0;
@@ -93,7 +95,7 @@ double harp_channels_lift(const Harp* harp, const HarpString* string) {
   if (string->holders || string->is_caught) {
     return 1.0;
   }
-  const bool is_awake = string->voice.is_awake;
+  const bool is_awake = harp_group_is_awake(string);
   return harp->channels[is_awake ? string->channel : harp_channels_pedal(harp)].lift;
 }
 

@@ -4,6 +4,7 @@
 #include "core/base/maths.h"
 #include "core/harp/harp_bridge.h"
 #include "core/harp/harp_channels.h"
+#include "core/harp/harp_group.h"
 #include "core/string/pickup.h"
 
 #include <math.h>
@@ -71,12 +72,33 @@ gather_bus(Harp* harp, uint32_t n_parts, bool are_tied, uint8_t bus, const Readi
   return n_parts;
 }
 
+/* What follows a string is heard where it is, and tied to nothing. */
+static uint32_t
+gather_followers(Harp* harp, uint32_t n_parts, uint8_t bus, const Reading* reading) {
+  for (uint32_t i = 0; i < HARP_STRINGS * HARP_FOLLOWERS; ++i) {
+    const HarpString* const leader = &harp->strings[i / HARP_FOLLOWERS];
+    HarpString* const follower = harp_group_awake(leader, i % HARP_FOLLOWERS);
+    if (follower && bus_of(harp, harp_channels_heard(leader)) == bus) {
+      harp->buses[n_parts] = bus;
+      add_part(harp, n_parts++, follower, reading);
+    }
+  }
+  return n_parts;
+}
+
+static uint32_t
+gather_all_of(Harp* harp, uint32_t n_parts, bool are_tied, uint8_t bus, const Reading* reading) {
+  n_parts = gather_bus(harp, n_parts, are_tied, bus, reading);
+  const bool are_followed = harp->is_followed && !are_tied;
+  return are_followed ? gather_followers(harp, n_parts, bus, reading) : n_parts;
+}
+
 /* Of all buses, one after the other. */
 static uint32_t gather_some(Harp* harp, uint32_t n_parts, bool are_tied, const Reading* reading) {
-  n_parts = gather_bus(harp, n_parts, are_tied, 0, reading);
+  n_parts = gather_all_of(harp, n_parts, are_tied, 0, reading);
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     const uint8_t bus = bus_of(harp, channel);
-    n_parts = bus > 0 ? gather_bus(harp, n_parts, are_tied, bus, reading) : n_parts;
+    n_parts = bus > 0 ? gather_all_of(harp, n_parts, are_tied, bus, reading) : n_parts;
   }
   return n_parts;
 }
@@ -85,12 +107,24 @@ static uint32_t gather_some(Harp* harp, uint32_t n_parts, bool are_tied, const R
 static void end_loans(Harp* harp) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
-    string->lender = string->voice.is_awake ? string->lender : 0;
+    if (string->lender && !harp_group_is_awake(string)) {
+      string->lender = 0;
+    }
   }
+}
+
+/* What follows no string any more is not looked for. */
+static void forget_followers(Harp* harp) {
+  bool is_followed = false;
+  for (uint32_t i = 0; harp->is_followed && i < HARP_STRINGS; ++i) {
+    is_followed = !harp_group_forget(&harp->strings[i]) || is_followed;
+  }
+  harp->is_followed = is_followed;
 }
 
 /* The strings awake, and where they are read. */
 static uint32_t gather(Harp* harp, const Reading* reading) {
+  forget_followers(harp);
   end_loans(harp);
   const uint32_t n_tied = gather_some(harp, 0, true, reading);
   harp_bridge_gather(harp, n_tied);
@@ -374,9 +408,8 @@ read_string(const HarpString* string, const ChainTap* tap, float (*of)(const Cha
 }
 
 /* Hide that what is read of a string steps: by what it reads now, or the other way round. */
-static void hide(Harp* harp, const HarpString* string, double sign) {
+static void hide(Harp* harp, uint32_t bus, const HarpString* string, double sign) {
   const Reading reading = reading_of(&harp->pickups);
-  const uint32_t bus = bus_of(harp, harp_channels_heard(string));
   for (uint32_t t = 0; t < reading.n_taps; ++t) {
     const ChainTap tap = voice_tap(&string->voice, &reading.at[t], angle_of(harp, string));
     const double x = sign * read_string(string, &tap, chain_position);
@@ -391,12 +424,25 @@ static void hide(Harp* harp, const HarpString* string, double sign) {
   harp->onset_type = reading.at[0].type;
 }
 
-void harp_mixer_hide_end(Harp* harp, const HarpString* string) {
-  hide(harp, string, 1.0);
+static void hide_group(Harp* harp, const HarpString* leader, double sign) {
+  const uint32_t bus = bus_of(harp, harp_channels_heard(leader));
+  if (leader->voice.is_awake) {
+    hide(harp, bus, leader, sign);
+  }
+  for (uint32_t i = 0; i < HARP_FOLLOWERS; ++i) {
+    const HarpString* const follower = harp_group_awake(leader, i);
+    if (follower) {
+      hide(harp, bus, follower, sign);
+    }
+  }
 }
 
-void harp_mixer_hide_start(Harp* harp, const HarpString* string) {
-  hide(harp, string, -1.0);
+void harp_mixer_hide_end(Harp* harp, const HarpString* leader) {
+  hide_group(harp, leader, 1.0);
+}
+
+void harp_mixer_hide_start(Harp* harp, const HarpString* leader) {
+  hide_group(harp, leader, -1.0);
 }
 
 void harp_mixer_run(Harp* harp, uint32_t n_frames, float* left, float* right) {

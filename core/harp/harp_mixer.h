@@ -9,11 +9,11 @@
 
 #include "core/harp/harp_state.h"
 
-/** A string that rings is to be put to sleep at once: let nobody hear a step. */
-void harp_mixer_hide_end(Harp* harp, const HarpString* string);
+/** What rings of a group is to be put to sleep at once: let nobody hear a step. */
+void harp_mixer_hide_end(Harp* harp, const HarpString* leader);
 
-/** A string that slept is at once where it is, at rest: the same. */
-void harp_mixer_hide_start(Harp* harp, const HarpString* string);
+/** What slept is at once where it is, at rest: the same. */
+void harp_mixer_hide_start(Harp* harp, const HarpString* leader);
 
 /** See harp_run(). */
 void harp_mixer_run(Harp* harp, uint32_t n_frames, float* left, float* right);

@@ -19,9 +19,14 @@ typedef struct {
                        hammers keep off the middle, and bows near the walls */
   double hardness;  /**< Of what plucks or strikes, or pressure of the bow, 0 to 1 */
   double resonance; /**< How much the bridge that all strings share moves, 0 to 1 */
-  double vibrato_hz;   /**< How fast a vibrato is [Hz], > 0 */
-  double noise;        /**< How loud what plucks or strikes is itself, 0 to 1; bows are not */
-  Variation variation; /**< How notes differ, bowed ones in place, pressure and level */
+  double vibrato_hz;    /**< How fast a vibrato is [Hz], > 0 */
+  double noise;         /**< How loud what plucks or strikes is itself, 0 to 1; bows are not */
+  Variation variation;  /**< How notes differ, bowed ones in place, pressure and level */
+  uint32_t unisons;     /**< Strings of a key, 1 to 3 */
+  double unison_detune; /**< Between the outermost of them [cents], ≥ 0 */
+  double second;        /**< Amplitude of a string's second direction over the first's, 0 to 1 */
+  double second_detune; /**< From the first direction to the second [cents], ≥ 0 */
+  double second_decay;  /**< τ of the second direction over the first's, > 0 */
 } HarpPatch;
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "core/base/line.h"
 #include "core/excite/noise.h"
+#include "core/harp/harp_group.h"
 #include "core/harp/harp_patch.h"
 #include "core/harp/harp_stereo.h"
 #include "core/harp/harp_string.h"
@@ -20,7 +21,8 @@ enum {
   HARP_SPARES = 32,               /**< Strings for keys that more than one channel holds */
   HARP_BUSES = 1 + HARP_CHANNELS, /**< What channels of gain 1 play, and what each other one does */
   HARP_STRINGS = HARP_KEYS + HARP_SPARES,
-  HARP_MIX_FRAMES = HARP_STEREO_FRAMES, /**< Frames that are mixed at a time */
+  HARP_VOICES = HARP_STRINGS * HARP_MEMBERS, /**< Those, and all that follow them */
+  HARP_MIX_FRAMES = HARP_STEREO_FRAMES,      /**< Frames that are mixed at a time */
 };
 
 /** A channel that plays, and the pedals under it. */
@@ -87,12 +89,14 @@ typedef struct Harp {
   Line level;
   uint32_t n_notes; /**< That have been played since all was still */
   Pickups pickups;
-  uint32_t n_fade;                  /**< Frames that the next fade will take */
-  HarpString strings[HARP_STRINGS]; /**< Of every key, and then of spares */
-  void* memory;                     /**< Memory of all strings; owned */
-  HarpString* awake[HARP_STRINGS];  /**< The strings awake, while they are run */
-  uint8_t buses[HARP_STRINGS];      /**< Where each of them is heard */
-  ChainPart parts[HARP_STRINGS];    /**< Their chains, and where they are read */
+  uint32_t n_fade;                                    /**< Frames that the next fade will take */
+  HarpString strings[HARP_STRINGS];                   /**< Of every key, and then of spares */
+  HarpString followers[HARP_STRINGS][HARP_FOLLOWERS]; /**< Of each of them */
+  bool is_followed;                                   /**< Any of those may be awake */
+  void* memory;                                       /**< Memory of all strings; owned */
+  HarpString* awake[HARP_VOICES];                     /**< The strings awake, while they are run */
+  uint8_t buses[HARP_VOICES];                         /**< Where each of them is heard */
+  ChainPart parts[HARP_VOICES];                       /**< Their chains, and where they are read */
   HarpBridge bridge;
   HarpStereo stereo;
   NoiseMake noise_make;

@@ -26,7 +26,8 @@ static const double DARKEST_LOSS = 0.75;
 static const double LEAST_DARK_LOSS = 1e-5;
 
 double harp_string_pitch_hz(const HarpString* string) {
-  return string_patch_pitch_hz(&string->patch->string, string->semitones + string->touch.bend);
+  const double semitones = string->semitones + string->touch.bend + 0.01 * string->cents;
+  return string_patch_pitch_hz(&string->patch->string, semitones);
 }
 
 /* What is left of the loss between the masses when the channel makes the string brighter, or
@@ -61,6 +62,7 @@ static VoiceAim aim_at(const HarpString* string, double f0_hz) {
   const double semitones = (double)string->key - 69.0;
   TuningTarget open =
       string_patch_target(&string->patch->string, string->voice.rate_hz, semitones, f0_hz);
+  open.tone.tau_s *= string->decay;
   open.loss = loss_of(string, open.loss);
   return (VoiceAim){open, damper_of(string, semitones, open.tone.tau_s), hold_of(string, f0_hz),
                     TENSION * string->patch->string.tension};
@@ -107,7 +109,12 @@ void harp_string_init(HarpString* string,
                       uint32_t capacity,
                       const Bridge* bridge) {
   *string = (HarpString){
-      .patch = patch, .key = key, .semitones = (double)key - 69.0, .touch = HARP_TOUCH_NONE};
+      .patch = patch,
+      .key = key,
+      .semitones = (double)key - 69.0,
+      .touch = HARP_TOUCH_NONE,
+      .decay = 1.0,
+  };
   const VoiceOwner owner = {begin_piece, string};
   voice_init(&string->voice, rate_hz, key, memory, capacity, owner, bridge);
 }
@@ -187,10 +194,8 @@ static void excite(HarpString* string, Pluck pluck) {
   const HarpPatch* const patch = string->patch;
   Voice* const voice = &string->voice;
   const TuningTarget target = aim_at(string, voice->f0_hz).open;
-  const HarpBalance balance = {target, voice->chain.n_masses, string->key, HAMMER_MASS};
   pluck.place = place_for(patch->exciter, pluck.place);
   pluck.hardness = hardness_for(patch->exciter, &pluck);
-  pluck.amplitude *= harp_balance_gain(patch, &balance, pluck);
   switch (patch->exciter) {
   case EXCITER_PLUCK:
     voice_pluck(voice, pluck);
@@ -219,15 +224,27 @@ static void wake_or_renew(HarpString* string, uint32_t n_glide) {
   harp_string_retune(string, n_glide);
 }
 
-void harp_string_play(HarpString* string, Pluck pluck, uint32_t n_glide) {
+bool harp_string_ready(HarpString* string, uint32_t n_glide) {
   string->lift = 1.0;
   wake_or_renew(string, n_glide);
-  if (string->voice.is_awake && !string->voice.is_choked) {
-    excite(string, pluck);
-    lean(string, 0);
-    if (vibrato_of(string) != string->voice.motion.depth.goal) {
-      harp_string_retune(string, n_glide);
-    }
+  return string->voice.is_awake && !string->voice.is_choked;
+}
+
+double
+harp_string_gain(const HarpString* string, const HarpMember members[HARP_MEMBERS], Pluck pluck) {
+  const Voice* const voice = &string->voice;
+  const HarpBalance balance = {aim_at(string, voice->f0_hz).open, voice->chain.n_masses,
+                               string->key, HAMMER_MASS, members};
+  pluck.place = place_for(string->patch->exciter, pluck.place);
+  pluck.hardness = hardness_for(string->patch->exciter, &pluck);
+  return harp_balance_gain(string->patch, &balance, pluck);
+}
+
+void harp_string_play(HarpString* string, Pluck pluck, uint32_t n_glide) {
+  excite(string, pluck);
+  lean(string, 0);
+  if (vibrato_of(string) != string->voice.motion.depth.goal) {
+    harp_string_retune(string, n_glide);
   }
 }
 

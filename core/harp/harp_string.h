@@ -7,6 +7,7 @@
 #ifndef HOOKE_CORE_HARP_HARP_STRING_H
 #define HOOKE_CORE_HARP_HARP_STRING_H
 
+#include "core/harp/harp_members.h"
 #include "core/harp/harp_patch.h"
 #include "core/voice/voice.h"
 
@@ -26,13 +27,20 @@ typedef struct {
 #define HARP_TOUCH_NONE ((HarpTouch){.breath = 1.0})
 
 /** Zero is a string that is asleep and has no memory. */
-typedef struct {
+typedef struct HarpString {
   Voice voice;
   const HarpPatch* patch; /**< The harp's */
   uint32_t key;           /**< MIDI note number */
   double semitones;       /**< Its pitch above A4 [semitones]; NAN: it has none, and is silent */
   double lift;     /**< Of its damper: 0, it lies on the string, to 1, it does not touch it */
-  HarpTouch touch; /**< Set it before harp_string_play() or harp_string_retune() */
+  HarpTouch touch; /**< Set it before harp_string_ready() or harp_string_retune() */
+  double cents;    /**< How far from its pitch it lies; set it as the touch */
+  double decay;    /**< τ over that of its key; so too */
+
+  /* Its group, see core/harp/harp_group.h, whose these are */
+  struct HarpString* followers; /**< The others of its group; NULL: it has none, and is alone */
+  HarpGroup group;              /**< What it was played as last */
+  bool is_followed;             /**< Any of those may be awake */
 
   /* Who plays it; the harp's */
   uint32_t holders; /**< The channels that hold its key down, a bit each */
@@ -43,7 +51,8 @@ typedef struct {
   double leaned_on; /**< Pressure of its key alone, 0 to 1 */
 } HarpString;
 
-/** The pitch of a string [Hz], bent as its channel bends it but for the vibrato. */
+/** The pitch of a string [Hz], bent as its channel bends it but for the vibrato, and as far off as
+ * it lies. */
 double harp_string_pitch_hz(const HarpString* string);
 
 /**
@@ -65,10 +74,25 @@ void harp_string_init(HarpString* string,
 void harp_string_rest(HarpString* string);
 
 /**
-   Play a string with the patch's exciter.  From rest it is strung anew, with the largest stable
-   number of masses up to the patch's; while it rings the motion adds to its own, its damper lifts,
-   the coefficients take `n_glide` frames, and if a bend has left it few of its masses it has them
-   again.  A string whose pitch is at or above Nyquist stays silent.
+   Make a string ready to be played: its damper lifts.  From rest it is strung anew, with the
+   largest stable number of masses up to the patch's; while it rings the coefficients take `n_glide`
+   frames, and if a bend has left it few of its masses it has them again.
+
+   @return false, and it is not to be played, if its pitch is at or above Nyquist
+*/
+bool harp_string_ready(HarpString* string, uint32_t n_glide);
+
+/**
+   What a pluck is to be multiplied by, see harp_balance_gain().
+
+   @param string   One that is ready, the first of the members
+   @param members  What is played with it
+*/
+double
+harp_string_gain(const HarpString* string, const HarpMember members[HARP_MEMBERS], Pluck pluck);
+
+/**
+   Play a string that is ready with the patch's exciter; the motion adds to its own.
 
    @param pluck  As loud as a strike or a bow is to be; its hardness is the hammer's, or the bow's
    pressure

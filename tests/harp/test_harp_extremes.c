@@ -61,7 +61,7 @@ static void pluck(Case* c) {
   c->patch = settings_patch(&c->setting);
   harp_string_init(&c->string, &c->patch, c->rate_hz, c->key, memory, CHAIN_MAX_MASSES, NULL);
   const Pluck hardest = {c->patch.pluck, c->patch.hardness, HARP_NOTE_PEAK, 0.0};
-  harp_string_play(&c->string, hardest, 0);
+  harp_group_play(&c->string, hardest, 0);
 }
 
 /* How near the limit a single mass of this tone is: what it would take to sound at all. */

@@ -48,6 +48,11 @@ static const Shown of_strings[] = {
     {"variation", "touch"},
     {"take", "touch"},
     {"tuning", "string"},
+    {"unisons", "unison"},
+    {"unison_detune", "unison"},
+    {"second", "unison"},
+    {"second_detune", "unison"},
+    {"second_decay", "unison"},
     {"limiter", "level"},
 };
 

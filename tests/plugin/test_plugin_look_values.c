@@ -108,7 +108,7 @@ static void check_scale(Host* host, uint32_t port) {
   HostRange range;
   const char* const symbol = host_port_symbol(host, port);
   if (host_range(host, symbol, &range)) {
-    const bool is_wide = !range.is_integer && range.min > 0.0f && range.max / range.min > 20.0f;
+    const bool is_wide = !range.is_integer && range.min > 0.0f && range.max / range.min > 10.0f;
     print_message("%s\n", symbol);
     assert_int_equal(panel_has(host, port, LV2_PORT_PROPS__logarithmic),
                      is_wide && !is_one_of(symbol, places, sizeof(places) / sizeof(places[0])));

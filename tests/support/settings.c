@@ -92,6 +92,8 @@ HarpPatch settings_patch(const Setting* setting) {
       .string.tension = v[SETTING_TENSION],
       .string.tuning_hz = v[SETTING_TUNING],
       .string.max_masses = (uint32_t)lround(v[SETTING_MASSES]),
+      .unisons = 1,
+      .second_decay = 1.0,
   };
 }
 

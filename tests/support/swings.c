@@ -71,6 +71,17 @@ PORT_SWING(hardness, 0.0, 1.0)
 PORT_SWING(capo, 0.0, 12.0)
 PORT_SWING(palm, 0.0, 1.0)
 
+/* Between strings in unison, and between two directions, that are there. */
+#define GROUP_SWING(symbol, group, value, low, high)                                               \
+  static void go_##symbol(Host* host, uint32_t key, double to) {                                   \
+    (void)key;                                                                                     \
+    strings_set(host, #group, value);                                                              \
+    go_port(host, #symbol, low, high, to);                                                         \
+  }
+GROUP_SWING(unison_detune, unisons, 3.0, 0.0, 20.0)
+GROUP_SWING(second_detune, second, 1.0, 0.0, 30.0)
+GROUP_SWING(second_decay, second, 1.0, 0.25, 4.0)
+
 /* All of them, whichever has the note. */
 static void go_open_strings(Host* host, uint32_t key, double to) {
   static const double notes[N_STRINGS] = {64.0, 59.0, 55.0, 50.0, 45.0, 40.0};
@@ -128,6 +139,9 @@ const Swing swings[] = {
     {"hardness", go_hardness, {true, true}, false},
     {"preset", go_preset, {true, true}, false},
     {"resonance", go_resonance, {true, false}, false},
+    {"unison detune", go_unison_detune, {true, false}, false},
+    {"second detune", go_second_detune, {true, false}, false},
+    {"second decay", go_second_decay, {true, false}, false},
     {"capo", go_capo, {false, true}, false},
     {"palm", go_palm, {false, true}, false},
     {"open strings", go_open_strings, {false, true}, false},
