@@ -29,7 +29,7 @@
   X(PICKUP, pickup, 11, 0.02f, 0.5f, 0.08f)                                                        \
   X(PICKUP2, pickup2, 12, 0.02f, 0.5f, 0.24f)                                                      \
   X(BLEND, blend, 13, 0.0f, 1.0f, 0.5f)                                                            \
-  X(WIDTH, width, 14, 0.0f, 1.0f, 0.3f)                                                            \
+  X(WIDTH, width, 14, 0.0f, 1.0f, 0.15f)                                                           \
   X(PLUCK, pluck, 15, 0.02f, 0.5f, 0.13f)                                                          \
   X(HARDNESS, hardness, 16, 0.0f, 1.0f, 0.6f)                                                      \
   X(MASSES, masses, 17, 1.0f, 256.0f, 80.0f)                                                       \

@@ -222,5 +222,9 @@ double harp_balance_gain(const HarpPatch* patch, const HarpBalance* string, Pluc
   const double most = fmin(HARP_BALANCE_MOST, LARGEST / sqrt(2.0 * power.plain));
   const double alone =
       gain < most ? fmax(gain, 1.0 / HARP_BALANCE_MOST) : fmax(most, 1.0 / HARP_BALANCE_MOST);
-  return power.together > 0.0 ? alone * sqrt(power.alone / power.together) : alone;
+  if (!(power.together > 0.0)) {
+    return alone;
+  }
+  const double others = sqrt(power.alone / power.together);
+  return alone * fmin(fmax(others, 1.0 / HARP_BALANCE_OTHERS), HARP_BALANCE_OTHERS);
 }

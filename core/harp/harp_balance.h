@@ -24,6 +24,10 @@
 /** Most that a string is played harder or softer by, on a wall or a node. */
 #define HARP_BALANCE_MOST 8.0
 
+/** Most that those which are played together are played harder or softer by, for what is heard of
+ * them is not in step. */
+#define HARP_BALANCE_OTHERS 2.5
+
 /** The string that is to be played. */
 typedef struct {
   TuningTarget target;       /**< Its own pitch and decay, no damper at it */
@@ -44,8 +48,8 @@ typedef struct {
    of what one dies faster than that, at most 10 dB are made up for.
 
    @param pluck  As it is given to harp_group_play()
-   @return 1/HARP_BALANCE_MOST to HARP_BALANCE_MOST; of what is played with others 1/2.5 of that
-   to 2.5 times as much, for what is heard of them is not in step
+   @return 1/HARP_BALANCE_MOST to HARP_BALANCE_MOST; of what is played with others, at most
+   HARP_BALANCE_OTHERS times as much or as little
 */
 double harp_balance_gain(const HarpPatch* patch, const HarpBalance* string, Pluck pluck);
 

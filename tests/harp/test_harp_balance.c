@@ -81,7 +81,7 @@ static bool is_at_its_most(const Harp* harp, const HarpPatch* patch, uint32_t ke
   const double semitones = (double)key - 69.0;
   const TuningTarget target = string_patch_target(&patch->string, harp->rate_hz, semitones,
                                                   string_patch_pitch_hz(&patch->string, semitones));
-  const HarpBalance balance = {target, voice->chain.n_masses, key, 0.25};
+  const HarpBalance balance = {target, voice->chain.n_masses, key, 0.25, NULL};
   const Pluck pluck = {patch->pluck, patch->hardness, 0.1, 0.0};
   return voice->is_awake && harp_balance_gain(patch, &balance, pluck) > 0.99 * HARP_BALANCE_MOST;
 }

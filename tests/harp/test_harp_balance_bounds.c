@@ -122,7 +122,8 @@ static void gains_are_bounded(void** state) {
     HarpBalance string = string_of(&patch, 48000.0, random_below(&random, 128));
     harp_members_place(&patch, harp_members_group(&patch), members);
     string.members = members;
-    const double others = harp_members_is_alone(harp_members_group(&patch)) ? 1.0 : 2.5;
+    const double others =
+        harp_members_is_alone(harp_members_group(&patch)) ? 1.0 : HARP_BALANCE_OTHERS;
     const Pluck pluck = {patch.pluck, patch.hardness, random_log_between(&random, 1e-5, 0.25), 0.0};
     const double gain = harp_balance_gain(&patch, &string, pluck);
     assert_true(gain >= 1.0 / HARP_BALANCE_MOST / others && gain <= HARP_BALANCE_MOST * others);

@@ -34,7 +34,7 @@ static const Pin pinned[] = {
     {"pickup", PIN_IN, PIN_VALUE, NULL, 0, 0.02f, 0.5f, 0.08f},
     {"pickup2", PIN_IN, PIN_VALUE, NULL, 0, 0.02f, 0.5f, 0.24f},
     {"blend", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.5f},
-    {"width", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.3f},
+    {"width", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.15f},
     {"pluck", PIN_IN, PIN_VALUE, NULL, 0, 0.02f, 0.5f, 0.13f},
     {"hardness", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.6f},
     {"masses", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_EXPENSIVE | PIN_NOT_AUTOMATIC, 1.0f,

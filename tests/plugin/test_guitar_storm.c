@@ -145,6 +145,20 @@ static void assert_nothing_sticks(Storm* storm) {
   assert_true(measure_peak(host_output(storm->host, 1), LARGEST) == 0.0);
 }
 
+/* Fine and coarse tuning, which no reset of controllers touches. */
+static void put_tuning_back(Storm* storm) {
+  for (uint32_t channel = 0; channel < N_CHANNELS; ++channel) {
+    const unsigned status = 0xB0 | channel;
+    for (unsigned parameter = 1; parameter <= 2; ++parameter) {
+      strings_midi(storm->host, 0, status, 101, 0);
+      strings_midi(storm->host, 0, status, 100, parameter);
+      strings_midi(storm->host, 0, status, 6, 64);
+      strings_midi(storm->host, 0, status, 38, 0);
+    }
+    run_and_look(storm, LARGEST);
+  }
+}
+
 /* The ports at their defaults but for what makes the fundamental easily measured, and wheels in
  * their middle; nobody activates anything. */
 static void put_back(Storm* storm, double mode) {
@@ -159,6 +173,7 @@ static void put_back(Storm* storm, double mode) {
   strings_set(storm->host, "masses", 40.0);
   strings_set(storm->host, "release", 0.005);
   strings_set(storm->host, "mode", mode);
+  put_tuning_back(storm);
   send_to_all(storm, STRINGS_RESET);
   wait(storm, 0.05);
 }

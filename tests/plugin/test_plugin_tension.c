@@ -27,6 +27,7 @@ static Host* open_plain(int plugin, double tension) {
     guitar_set_plain(host);
   } else {
     strings_set_plain(host);
+    strings_set(host, "sense", 1.0); /* What is read so moves as far as the port is told for. */
   }
   strings_set(host, "limiter", 0.0);
   strings_set(host, "tension", tension);
