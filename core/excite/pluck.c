@@ -4,6 +4,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 /* The force of a hand that plays with what it has as that is, and how fast it is softer. */
@@ -51,38 +52,43 @@ static void hang(Shape* shape) {
   }
 }
 
+/* A row of the factors below: what is left of it and the two before, and the inverse of its
+ * diagonal. */
+typedef struct {
+  double twice, below, inverse;
+} Row;
+
+static Row next_row(StringCoefs c, double at, Row before, Row last) {
+  const double twice = c.k3 * before.inverse;
+  const double left = -(c.k2 + 4.0 * c.k3) - c.k3 * last.below;
+  const double below = left * last.inverse;
+  return (Row){twice, below, 1.0 / (at - below * left - twice * c.k3)};
+}
+
 /*
   Solve (k1 + k2 L + k3 L²) x = f in place, which is positive definite wherever a string is: its
   five diagonals are factored into a lower triangle of two below ones, those into a diagonal, and
-  back.
+  back. All rows but those next to a wall are alike, so the factors soon stand still.
 */
 static void stiffen(Shape* shape, StringCoefs c) {
   const uint32_t n = shape->n;
-  const double one = -(c.k2 + 4.0 * c.k3);
-  double diagonal[CHAIN_MAX_MASSES + 2];
-  double below[CHAIN_MAX_MASSES + 2];
-  double twice[CHAIN_MAX_MASSES + 2];
-  if (c.k2 == 0.0 && c.k3 == 0.0) {
-    for (uint32_t i = 1; i <= n; ++i) {
-      shape->at[i] /= c.k1;
-    }
-    return;
+  const double at = c.k1 + 2.0 * c.k2 + 6.0 * c.k3;
+  Row rows[CHAIN_MAX_MASSES];
+  Row before = {0};
+  Row last = {0};
+  double* const x = &shape->at[1];
+  for (uint32_t i = 0; i < n; ++i) {
+    const double wall = (i == 0 ? c.k3 : 0.0) + (i + 1 == n ? c.k3 : 0.0);
+    const bool is_still = i > 2 && wall == 0.0 && last.inverse == before.inverse &&
+                          last.below == before.below && last.twice == before.twice;
+    rows[i] = is_still ? last : next_row(c, at - wall, before, last);
+    x[i] -= (i > 0 ? rows[i].below * x[i - 1] : 0.0) + (i > 1 ? rows[i].twice * x[i - 2] : 0.0);
+    before = last;
+    last = rows[i];
   }
-  for (uint32_t i = 1; i <= n; ++i) {
-    const double end = (i == 1 ? c.k3 : 0.0) + (i == n ? c.k3 : 0.0);
-    const double d1 = i > 1 ? diagonal[i - 1] : 0.0;
-    const double d2 = i > 2 ? diagonal[i - 2] : 0.0;
-    twice[i] = i > 2 ? c.k3 / d2 : 0.0;
-    below[i] = i > 1 ? (one - twice[i] * d2 * (i > 2 ? below[i - 1] : 0.0)) / d1 : 0.0;
-    diagonal[i] =
-        c.k1 + 2.0 * c.k2 + 6.0 * c.k3 - end - below[i] * below[i] * d1 - twice[i] * twice[i] * d2;
-    shape->at[i] -=
-        (i > 1 ? below[i] * shape->at[i - 1] : 0.0) + (i > 2 ? twice[i] * shape->at[i - 2] : 0.0);
-  }
-  for (uint32_t i = n; i >= 1; --i) {
-    shape->at[i] = shape->at[i] / diagonal[i] -
-                   (i + 1 <= n ? below[i + 1] * shape->at[i + 1] : 0.0) -
-                   (i + 2 <= n ? twice[i + 2] * shape->at[i + 2] : 0.0);
+  for (uint32_t i = n; i-- > 0;) {
+    x[i] = rows[i].inverse * x[i] - (i + 1 < n ? rows[i + 1].below * x[i + 1] : 0.0) -
+           (i + 2 < n ? rows[i + 2].twice * x[i + 2] : 0.0);
   }
 }
 
@@ -102,34 +108,85 @@ double pluck_width(const Pluck* pluck, uint32_t n_masses) {
   return fmax(PLUCK_NARROWEST, softest * exp(-range * played));
 }
 
-double pluck_pull(Chain* chain, Pluck pluck) {
-  const double a1 = tuning_mode(chain->now, chain->n_masses, 1).a;
-  const double force = pluck.amplitude * (2.0 / PI) * (chain->n_masses + 1.0) * a1;
-  const double before = chain_energy(chain);
-  Shape push = {.n = chain->n_masses};
-  Shape aside;
-  press(&push, &pluck);
-  aside = push;
-  hang(&aside);
-  stiffen(&aside, chain->now);
-  for (uint32_t i = 1; i <= chain->n_masses; ++i) {
-    const double x = (double)chain_position(chain, i - 1) + force * aside.at[i];
-    const double u = (double)chain_velocity(chain, i - 1) + 0.5 * force * push.at[i];
-    chain_place(chain, i - 1, (float)x, (float)u);
-  }
-  return chain_energy(chain) - before;
-}
-
-double pluck_push(Chain* chain, Pluck pluck) {
-  const double angle1 = pole_angle(tuning_mode(chain->now, chain->n_masses, 1));
-  const double momentum = pluck.amplitude * (2.0 / PI) * (chain->n_masses + 1.0) * sin(angle1);
-  const double before = chain_energy(chain);
-  Shape push = {.n = chain->n_masses};
-  press(&push, &pluck);
-  for (uint32_t i = 1; i <= chain->n_masses; ++i) {
-    if (push.at[i] > 0.0) {
-      chain_push(chain, i - 1, (float)(momentum * push.at[i]));
+/* fᵀK x of a force, with x where the masses are: past a wall all goes on upside down. */
+static double against_springs(const Shape* force, StringCoefs c, const Shape* where) {
+  const int64_t n = force->n;
+  double sum = 0.0;
+  for (int64_t i = 1; i <= n; ++i) {
+    double x[7];
+    for (int64_t k = 0; force->at[i] != 0.0 && k < 7; ++k) {
+      const int64_t m = i + k - 3;
+      const int64_t inside = m < 0 ? -m : m > n + 1 ? 2 * (n + 1) - m : m;
+      const bool is_mass = inside >= 1 && inside <= n;
+      x[k] = is_mass ? (m == inside ? 1.0 : -1.0) * where->at[inside] : 0.0;
+    }
+    if (force->at[i] != 0.0) {
+      const double pull =
+          c.k1 * (2.0 * x[3] - x[2] - x[4]) +
+          c.k2 * (6.0 * x[3] - 4.0 * (x[2] + x[4]) + x[1] + x[5]) +
+          c.k3 * (20.0 * x[3] - 15.0 * (x[2] + x[4]) + 6.0 * (x[1] + x[5]) - x[0] - x[6]);
+      sum += force->at[i] * pull;
     }
   }
-  return chain_energy(chain) - before;
+  return sum;
+}
+
+/* How the masses move; whether any is elsewhere than at rest. */
+static bool read(const Chain* chain, Shape* where, double* velocities) {
+  bool is_moved = false;
+  where->n = chain->n_masses;
+  chain_read(chain, &where->at[1], velocities);
+  for (uint32_t i = 1; i <= where->n; ++i) {
+    is_moved = is_moved || where->at[i] != 0.0;
+  }
+  return is_moved;
+}
+
+/* With d what x is added and ½ f what u is, K d = f: fᵀx + ½ fᵀd − ⅛ fᵀf − ¼ fᵀK x. */
+double pluck_pull(Chain* chain, Pluck pluck) {
+  const double a1 = tuning_mode(chain->now, chain->n_masses, 1).a;
+  const double size = pluck.amplitude * (2.0 / PI) * (chain->n_masses + 1.0) * a1;
+  Shape where;
+  Shape force;
+  force.n = chain->n_masses;
+  Shape aside;
+  double velocities[CHAIN_MAX_MASSES];
+  double work = 0.0;
+  press(&force, &pluck);
+  aside = force;
+  hang(&aside);
+  stiffen(&aside, chain->now);
+  if (read(chain, &where, velocities)) {
+    work -= 0.25 * size * against_springs(&force, chain->now, &where);
+  }
+  for (uint32_t i = 1; i <= force.n; ++i) {
+    const double f = size * force.at[i];
+    aside.at[i] *= size;
+    work += f * (where.at[i] + 0.5 * aside.at[i] - 0.125 * f);
+    force.at[i] = 0.5 * f;
+  }
+  chain_add(chain, &aside.at[1], &force.at[1]);
+  return work;
+}
+
+/* With p what u is added: pᵀu + ½ pᵀp − ½ pᵀK x. */
+double pluck_push(Chain* chain, Pluck pluck) {
+  static const double none[CHAIN_MAX_MASSES] = {0.0};
+  const double angle1 = pole_angle(tuning_mode(chain->now, chain->n_masses, 1));
+  const double size = pluck.amplitude * (2.0 / PI) * (chain->n_masses + 1.0) * sin(angle1);
+  Shape where;
+  Shape push;
+  push.n = chain->n_masses;
+  double velocities[CHAIN_MAX_MASSES];
+  double work = 0.0;
+  press(&push, &pluck);
+  if (read(chain, &where, velocities)) {
+    work -= 0.5 * size * against_springs(&push, chain->now, &where);
+  }
+  for (uint32_t i = 1; i <= push.n; ++i) {
+    push.at[i] *= size;
+    work += push.at[i] * (velocities[i - 1] + 0.5 * push.at[i]);
+  }
+  chain_add(chain, none, &push.at[1]);
+  return work;
 }

@@ -135,6 +135,15 @@ void chain_place(Chain* chain, uint32_t i, float x, float u) {
   chain_numbers_place(chain, i, (double)x, (double)u);
 }
 
+void chain_read(const Chain* chain, double* x, double* u) {
+  chain_numbers_read(chain, x, u);
+}
+
+void chain_add(Chain* chain, const double* x, const double* u) {
+  chain_numbers_touch(chain);
+  chain_numbers_add(chain, x, u);
+}
+
 void chain_push(Chain* chain, uint32_t i, float u) {
   chain_numbers_touch(chain);
   chain_numbers_place(chain, i, chain_numbers_position(chain, i),
@@ -171,14 +180,13 @@ double chain_energy(const Chain* chain) {
   const double farther = c.k2 + 6.0 * c.k3;
   double twice = 0.0;
   Field field;
+  double velocities[CHAIN_MAX_MASSES];
   double* const x = field + REACH;
-  for (uint32_t i = 0; i < chain->n_masses; ++i) {
-    x[i] = chain_numbers_position(chain, i);
-  }
+  chain_numbers_read(chain, x, velocities);
   mirror(field, chain->n_masses);
   for (uint32_t i = 0; i < chain->n_masses; ++i) {
     const double* const y = x + i;
-    const double u = chain_numbers_velocity(chain, i);
+    const double u = velocities[i];
     const double pull =
         at * y[0] - beside * (y[-1] + y[1]) + farther * (y[-2] + y[2]) - c.k3 * (y[-3] + y[3]);
     twice += u * u + pull * (y[0] - u);

@@ -83,6 +83,38 @@ double chain_numbers_velocity(const Chain* chain, uint32_t i) {
              : u;
 }
 
+/* The masses of a lane follow each other from cell to cell. */
+void chain_numbers_read(const Chain* chain, double* x, double* u) {
+  const size_t n_lanes = chain->loops->n_lanes;
+  uint32_t i = 0;
+  for (size_t lane = 0; i < chain->n_masses; ++lane) {
+    size_t offset = lane;
+    for (uint32_t cell = 0; cell < chain->n_cells && i < chain->n_masses; ++cell, ++i) {
+      x[i] = number(chain, offset);
+      u[i] = number(chain, offset + n_lanes);
+      offset += 2 * n_lanes;
+    }
+  }
+  if (chain->numbers == CHAIN_FIXED) {
+    for (i = 0; i < chain->n_masses; ++i) {
+      u[i] = u[i] / chain->fade + (1.0 - 1.0 / chain->fade) * x[i];
+    }
+  }
+}
+
+void chain_numbers_add(Chain* chain, const double* x, const double* u) {
+  const size_t n_lanes = chain->loops->n_lanes;
+  uint32_t i = 0;
+  for (size_t lane = 0; i < chain->n_masses; ++lane) {
+    size_t offset = lane;
+    for (uint32_t cell = 0; cell < chain->n_cells && i < chain->n_masses; ++cell, ++i) {
+      set_number(chain, offset, number(chain, offset) + x[i]);
+      set_number(chain, offset + n_lanes, number(chain, offset + n_lanes) + u[i]);
+      offset += 2 * n_lanes;
+    }
+  }
+}
+
 void chain_numbers_place(Chain* chain, uint32_t i, double x, double u) {
   const size_t offset = chain_numbers_offset(chain, i);
   set_number(chain, offset, x);

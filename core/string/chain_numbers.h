@@ -28,6 +28,12 @@ double chain_numbers_position(const Chain* chain, uint32_t i);
 /** Scaled velocity of mass `i`. */
 double chain_numbers_velocity(const Chain* chain, uint32_t i);
 
+/** Positions and scaled velocities of all masses. */
+void chain_numbers_read(const Chain* chain, double* x, double* u);
+
+/** Add to those of all masses; not in fixed point. */
+void chain_numbers_add(Chain* chain, const double* x, const double* u);
+
 /** Put mass `i` at position `x` with scaled velocity `u`; not in fixed point. */
 void chain_numbers_place(Chain* chain, uint32_t i, double x, double u);
 
