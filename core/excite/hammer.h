@@ -28,7 +28,7 @@
 #define HAMMER_LEAVING_S 0.005
 
 /** Hardness that the softest hand comes to, whatever it strikes with. */
-#define HAMMER_SOFT (-0.8)
+#define HAMMER_SOFT (-0.55)
 
 /** A strike as it is wanted. */
 typedef struct {
