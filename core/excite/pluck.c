@@ -108,25 +108,29 @@ double pluck_width(const Pluck* pluck, uint32_t n_masses) {
   return fmax(PLUCK_NARROWEST, softest * exp(-range * played));
 }
 
-/* fᵀK x of a force, with x where the masses are: past a wall all goes on upside down. */
+/* Where a mass is; past a wall all goes on upside down. */
+static double mirrored(const Shape* shape, int64_t i) {
+  const int64_t n = shape->n;
+  const int64_t inside = i < 0 ? -i : i > n + 1 ? 2 * (n + 1) - i : i;
+  const bool is_mass = inside >= 1 && inside <= n;
+  return is_mass ? (i == inside ? 1.0 : -1.0) * shape->at[inside] : 0.0;
+}
+
+/* K x at a mass. */
+static double pull_at(const Shape* where, StringCoefs c, int64_t i) {
+  const double x = mirrored(where, i);
+  const double beside = mirrored(where, i - 1) + mirrored(where, i + 1);
+  const double farther = mirrored(where, i - 2) + mirrored(where, i + 2);
+  const double farthest = mirrored(where, i - 3) + mirrored(where, i + 3);
+  return c.k1 * (2.0 * x - beside) + c.k2 * (6.0 * x - 4.0 * beside + farther) +
+         c.k3 * (20.0 * x - 15.0 * beside + 6.0 * farther - farthest);
+}
+
+/* fᵀK x of a force, with x where the masses are. */
 static double against_springs(const Shape* force, StringCoefs c, const Shape* where) {
-  const int64_t n = force->n;
   double sum = 0.0;
-  for (int64_t i = 1; i <= n; ++i) {
-    double x[7];
-    for (int64_t k = 0; force->at[i] != 0.0 && k < 7; ++k) {
-      const int64_t m = i + k - 3;
-      const int64_t inside = m < 0 ? -m : m > n + 1 ? 2 * (n + 1) - m : m;
-      const bool is_mass = inside >= 1 && inside <= n;
-      x[k] = is_mass ? (m == inside ? 1.0 : -1.0) * where->at[inside] : 0.0;
-    }
-    if (force->at[i] != 0.0) {
-      const double pull =
-          c.k1 * (2.0 * x[3] - x[2] - x[4]) +
-          c.k2 * (6.0 * x[3] - 4.0 * (x[2] + x[4]) + x[1] + x[5]) +
-          c.k3 * (20.0 * x[3] - 15.0 * (x[2] + x[4]) + 6.0 * (x[1] + x[5]) - x[0] - x[6]);
-      sum += force->at[i] * pull;
-    }
+  for (uint32_t i = 1; i <= force->n; ++i) {
+    sum += force->at[i] != 0.0 ? force->at[i] * pull_at(where, c, i) : 0.0;
   }
   return sum;
 }
