@@ -114,7 +114,7 @@ static void plucks_and_strikes_are_as_loud(void** state) {
   for (uint32_t way = 0; way < BOWED; ++way) {
     const HarpPatch patch = harps_patch(way);
     Harp* const harp = harps_new(48000.0, &patch);
-    const Span span = span_of(harp, patch, 100, stride(7));
+    const Span span = span_of(harp, patch, 100, stride(15));
     print_span(&patch, span);
     worst = fmax(worst, worst_of(span));
     if (patch.exciter == EXCITER_PLUCK) {
@@ -166,7 +166,7 @@ static void bows_are_as_loud(void** state) {
     Span high = nothing;
     for (int p = 0; p < N_PLACES; ++p) {
       for (int q = 0; q < N_PLACES; ++q) {
-        for (uint32_t key = 33; key <= HIGHEST; key += stride(7)) {
+        for (uint32_t key = 33; key <= HIGHEST; key += stride(13)) {
           patch.pluck = plucks[p];
           patch.pickup = pickups[q];
           stretch_to(key <= 80 ? &low : &high, off(harp, &patch, key, 100));
