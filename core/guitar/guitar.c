@@ -31,7 +31,7 @@ struct Guitar {
   GuitarString tails[GUITAR_VOICES]; /* What they did before they were plucked again */
   void* memory;                      /* Of all strings; owned */
   GuitarMixer mixer;
-  uint32_t n_noises; /* That were made since all was still */
+  uint32_t n_noises; /* That were made, heard or not, since all was still */
 
   /* What each key has on each channel, against equal temperament [semitones] */
   double detuning[PERFORMANCE_CHANNELS][PERFORMANCE_KEYS];
@@ -233,8 +233,8 @@ static bool is_still(const Guitar* guitar) {
 /* A finger is heard, whichever way it goes. */
 static void make_noise(Guitar* guitar, uint32_t string, double hardness, double force) {
   const double amplitude = NOISE_GAIN * guitar->patch.noise * fabs(force);
+  guitar->n_noises = is_still(guitar) ? 0 : guitar->n_noises + 1;
   if (has(guitar, string) && amplitude > 0.0) {
-    guitar->n_noises = is_still(guitar) ? 0 : guitar->n_noises + 1;
     guitar_mixer_scrape(&guitar->mixer, string, chance_bits(string, guitar->n_noises), hardness,
                         GUITAR_NOTE_PEAK * amplitude);
   }
