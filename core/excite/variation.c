@@ -15,9 +15,9 @@ Pluck variation_of(Variation variation, uint32_t key, uint32_t n_before, Pluck a
                            (1.0 + VARIATION_PLACE * amount * chance_even(note, PLACE));
   const double harder = VARIATION_HARDNESS * amount * chance_even(note, HARDNESS);
   const double louder_db = VARIATION_LEVEL_DB * amount * chance_even(note, LEVEL);
-  return (Pluck){
-      .place = asked.place > 0.5 ? 1.0 - from_wall : from_wall,
-      .hardness = clamp(asked.hardness + harder, 0.0, 1.0),
-      .amplitude = asked.amplitude * pow(10.0, louder_db / 20.0),
-  };
+  Pluck played = asked;
+  played.place = asked.place > 0.5 ? 1.0 - from_wall : from_wall;
+  played.hardness = clamp(asked.hardness + harder, 0.0, 1.0);
+  played.amplitude = asked.amplitude * pow(10.0, louder_db / 20.0);
+  return played;
 }

@@ -28,7 +28,7 @@ typedef struct {
 
 /**
    A note as it is played this time; place, hardness and amplitude are each evenly spread about what
-   is asked.
+   is asked, and the hand is as soft as it is.
 
    @param n_before  Notes before it, since all was still
    @param asked     Place and hardness 0 to 1; what plays it may be a hammer or a bow

@@ -424,6 +424,14 @@ static void hide(Harp* harp, uint32_t bus, const HarpString* string, double sign
   harp->onset_type = reading.at[0].type;
 }
 
+/* What was read before must be known, or there would be nothing to take a step from. */
+static void listen(Harp* harp) {
+  const Reading reading = reading_of(&harp->pickups);
+  if (!are_same(&reading, &harp->reading)) {
+    take_reading(harp, &reading, gather(harp, &reading));
+  }
+}
+
 static void hide_group(Harp* harp, const HarpString* leader, double sign) {
   const uint32_t bus = bus_of(harp, harp_channels_heard(leader));
   if (leader->voice.is_awake) {
@@ -438,6 +446,7 @@ static void hide_group(Harp* harp, const HarpString* leader, double sign) {
 }
 
 void harp_mixer_hide_end(Harp* harp, const HarpString* leader) {
+  listen(harp);
   hide_group(harp, leader, 1.0);
 }
 

@@ -9,7 +9,7 @@
 
 #include "core/harp/harp_state.h"
 
-/** What rings of a group is to be put to sleep at once: let nobody hear a step. */
+/** What a group does, if it rings, is to end at once: let nobody hear a step. */
 void harp_mixer_hide_end(Harp* harp, const HarpString* leader);
 
 /** What slept is at once where it is, at rest: the same. */

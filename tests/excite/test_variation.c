@@ -13,7 +13,7 @@
 
 enum { N = 20000 };
 
-static const Pluck asked = {.place = 0.2, .hardness = 0.5, .amplitude = 0.1};
+static const Pluck asked = {.place = 0.2, .hardness = 0.5, .amplitude = 0.1, .softness = 0.3};
 
 /* How far it is off, each of the most that it may be. */
 typedef struct {
@@ -27,7 +27,8 @@ static Off off(Pluck pluck, Pluck from) {
 }
 
 static bool are_same(Pluck a, Pluck b) {
-  return a.place == b.place && a.hardness == b.hardness && a.amplitude == b.amplitude;
+  return a.place == b.place && a.hardness == b.hardness && a.amplitude == b.amplitude &&
+         a.softness == b.softness;
 }
 
 static void without_it_notes_are_what_is_asked(void** state) {
@@ -40,6 +41,7 @@ static void without_it_notes_are_what_is_asked(void** state) {
 static void the_same_note_of_a_take_is_the_same(void** state) {
   (void)state;
   const Pluck once = variation_of((Variation){1.0, 7}, 60, 3, asked);
+  assert_true(once.softness == asked.softness);
   assert_true(are_same(once, variation_of((Variation){1.0, 7}, 60, 3, asked)));
   assert_false(are_same(once, variation_of((Variation){1.0, 8}, 60, 3, asked)));
   assert_false(are_same(once, variation_of((Variation){1.0, 7}, 61, 3, asked)));

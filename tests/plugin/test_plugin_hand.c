@@ -124,7 +124,12 @@ static void harder_is_brighter(void** state) {
       print_message("  %s, hardness 0.%d: %.1f dB\n", exciter ? "strike" : "pluck", h, db);
       least = fmin(least, db);
     }
-    assert_true(least >= (exciter == STRIKE ? 10.0 : 6.0));
+    /* What differs from note to note is as soft. */
+    strings_set(host, "hardness", 0.5);
+    strings_set(host, "variation", 0.3);
+    const double varied = brightness(host, 45, 127) - brightness(host, 45, 20);
+    print_message("  varied: %.1f dB\n", varied);
+    assert_true(fmin(least, varied) >= (exciter == STRIKE ? 10.0 : 6.0));
     host_free(host);
   }
 }
