@@ -108,89 +108,36 @@ double pluck_width(const Pluck* pluck, uint32_t n_masses) {
   return fmax(PLUCK_NARROWEST, softest * exp(-range * played));
 }
 
-/* Where a mass is; past a wall all goes on upside down. */
-static double mirrored(const Shape* shape, int64_t i) {
-  const int64_t n = shape->n;
-  const int64_t inside = i < 0 ? -i : i > n + 1 ? 2 * (n + 1) - i : i;
-  const bool is_mass = inside >= 1 && inside <= n;
-  return is_mass ? (i == inside ? 1.0 : -1.0) * shape->at[inside] : 0.0;
-}
-
-/* K x at a mass. */
-static double pull_at(const Shape* where, StringCoefs c, int64_t i) {
-  const double x = mirrored(where, i);
-  const double beside = mirrored(where, i - 1) + mirrored(where, i + 1);
-  const double farther = mirrored(where, i - 2) + mirrored(where, i + 2);
-  const double farthest = mirrored(where, i - 3) + mirrored(where, i + 3);
-  return c.k1 * (2.0 * x - beside) + c.k2 * (6.0 * x - 4.0 * beside + farther) +
-         c.k3 * (20.0 * x - 15.0 * beside + 6.0 * farther - farthest);
-}
-
-/* fᵀK x of a force, with x where the masses are. */
-static double against_springs(const Shape* force, StringCoefs c, const Shape* where) {
-  double sum = 0.0;
-  for (uint32_t i = 1; i <= force->n; ++i) {
-    sum += force->at[i] != 0.0 ? force->at[i] * pull_at(where, c, i) : 0.0;
-  }
-  return sum;
-}
-
-/* How the masses move; whether any is elsewhere than at rest. */
-static bool read(const Chain* chain, Shape* where, double* velocities) {
-  bool is_moved = false;
-  where->n = chain->n_masses;
-  chain_read(chain, &where->at[1], velocities);
-  for (uint32_t i = 1; i <= where->n; ++i) {
-    is_moved = is_moved || where->at[i] != 0.0;
-  }
-  return is_moved;
-}
-
-/* With d what x is added and ½ f what u is, K d = f: fᵀx + ½ fᵀd − ⅛ fᵀf − ¼ fᵀK x. */
 double pluck_pull(Chain* chain, Pluck pluck) {
   const double a1 = tuning_mode(chain->now, chain->n_masses, 1).a;
   const double size = pluck.amplitude * (2.0 / PI) * (chain->n_masses + 1.0) * a1;
-  Shape where;
+  const double before = chain_energy(chain);
   Shape force;
-  force.n = chain->n_masses;
   Shape aside;
-  double velocities[CHAIN_MAX_MASSES];
-  double work = 0.0;
+  force.n = chain->n_masses;
   press(&force, &pluck);
   aside = force;
   hang(&aside);
   stiffen(&aside, chain->now);
-  if (read(chain, &where, velocities)) {
-    work -= 0.25 * size * against_springs(&force, chain->now, &where);
-  }
   for (uint32_t i = 1; i <= force.n; ++i) {
-    const double f = size * force.at[i];
     aside.at[i] *= size;
-    work += f * (where.at[i] + 0.5 * aside.at[i] - 0.125 * f);
-    force.at[i] = 0.5 * f;
+    force.at[i] *= 0.5 * size;
   }
   chain_add(chain, &aside.at[1], &force.at[1]);
-  return work;
+  return chain_energy(chain) - before;
 }
 
-/* With p what u is added: pᵀu + ½ pᵀp − ½ pᵀK x. */
 double pluck_push(Chain* chain, Pluck pluck) {
   static const double none[CHAIN_MAX_MASSES] = {0.0};
   const double angle1 = pole_angle(tuning_mode(chain->now, chain->n_masses, 1));
   const double size = pluck.amplitude * (2.0 / PI) * (chain->n_masses + 1.0) * sin(angle1);
-  Shape where;
+  const double before = chain_energy(chain);
   Shape push;
   push.n = chain->n_masses;
-  double velocities[CHAIN_MAX_MASSES];
-  double work = 0.0;
   press(&push, &pluck);
-  if (read(chain, &where, velocities)) {
-    work -= 0.5 * size * against_springs(&push, chain->now, &where);
-  }
   for (uint32_t i = 1; i <= push.n; ++i) {
     push.at[i] *= size;
-    work += push.at[i] * (velocities[i - 1] + 0.5 * push.at[i]);
   }
   chain_add(chain, none, &push.at[1]);
-  return work;
+  return chain_energy(chain) - before;
 }

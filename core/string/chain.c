@@ -135,10 +135,6 @@ void chain_place(Chain* chain, uint32_t i, float x, float u) {
   chain_numbers_place(chain, i, (double)x, (double)u);
 }
 
-void chain_read(const Chain* chain, double* x, double* u) {
-  chain_numbers_read(chain, x, u);
-}
-
 void chain_add(Chain* chain, const double* x, const double* u) {
   chain_numbers_touch(chain);
   chain_numbers_add(chain, x, u);

@@ -115,10 +115,7 @@ float chain_velocity(const Chain* chain, uint32_t i);
 /** Put mass `i` at position `x` with scaled velocity `u`. */
 void chain_place(Chain* chain, uint32_t i, float x, float u);
 
-/** Positions and scaled velocities of all masses. */
-void chain_read(const Chain* chain, double* x, double* u);
-
-/** Add to those of all masses. */
+/** Add to the positions and scaled velocities of all masses. */
 void chain_add(Chain* chain, const double* x, const double* u);
 
 /** Add `u` to the scaled velocity of mass `i`. */

@@ -309,7 +309,7 @@ static void push_is_heard_as_the_velocity_of_a_pull(void** state) {
     }
     chain_rest(&chain);
     const double given = pluck_push(&chain, pluck);
-    assert_true(fabs(given / chain_energy(&chain) - 1.0) < 1e-6);
+    assert_true(fabs(given / chain_energy(&chain) - 1.0) < 1e-9);
     for (uint32_t k = 1; k <= 20; ++k) {
       const double angle = pole_angle(tuning_mode(chain.now, N, k));
       const double pushed = partial(&chain, k, chain_velocity) / sin(angle);
@@ -339,7 +339,7 @@ static void pull_adds_to_what_rings(void** state) {
   }
   const double before = chain_energy(&chain);
   const double given = pluck_pull(&chain, (Pluck){0.6, 0.8, -0.1, 0.0});
-  assert_true(fabs(chain_energy(&chain) - before - given) < 1e-6 * before);
+  assert_true(fabs(chain_energy(&chain) - before - given) < 1e-12 * before);
   Chain alone;
   static _Alignas(CHAIN_ALIGNMENT) char other_memory[32 * CHAIN_MAX_MASSES];
   chain_init(&alone, chain_kernel(0), other_memory, N);
