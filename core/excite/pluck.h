@@ -35,7 +35,7 @@ typedef struct {
 /**
    How soft a hand plays: 1 − (force/0.75)^0.75.  It takes hardness h to h + softness (PLUCK_SOFT −
    h), from where the string's masses would not tell it from what is harder; so the softest notes
-   are duller, beside the level, by 6 dB and more than the hardest.
+   are duller at the bridge, beside the level, by 6 dB and more than the hardest.
 
    @param force  Share of the full force, as a velocity is of 127, 0 to 1
    @return 1, very soft, to −0.24

@@ -247,7 +247,7 @@ static bool act_played(Voice* voice) {
 
 /* It goes to `aim`, and on from there by itself; in how many frames.  How sharp it is does not wait
  * for slow changes. */
-static uint32_t stretch(Voice* voice, const VoiceAim* aim, uint32_t n_glide) {
+static uint32_t tighten(Voice* voice, const VoiceAim* aim, uint32_t n_glide) {
   Tension* const tension = &voice->tension;
   if (aim->tension > 0.0 || tension->is_moving) {
     voice->aim = *aim;
@@ -260,14 +260,14 @@ static uint32_t stretch(Voice* voice, const VoiceAim* aim, uint32_t n_glide) {
 }
 
 /* A piece begins of how sharp it is; what is under way is not hurried. */
-static void begin_stretch(Voice* voice) {
+static void begin_tension(Voice* voice) {
   const VoiceAim aim = voice->aim;
   const uint32_t n_gliding = voice->chain.n_gliding;
   voice_aim(voice, &aim, n_gliding > MOTION_PIECE_FRAMES ? n_gliding : MOTION_PIECE_FRAMES);
 }
 
 /* The next piece, if it is due; where one of the pitch's motion is, that will see to it. */
-static bool pass_stretch(Voice* voice, uint32_t n_frames) {
+static bool pass_tension(Voice* voice, uint32_t n_frames) {
   Tension* const tension = &voice->tension;
   if (!tension->is_moving) {
     return false;
@@ -280,7 +280,7 @@ static bool pass_stretch(Voice* voice, uint32_t n_frames) {
     tension->n_left = 1;
     return false;
   }
-  begin_stretch(voice);
+  begin_tension(voice);
   return true;
 }
 
@@ -288,7 +288,7 @@ static bool pass_stretch(Voice* voice, uint32_t n_frames) {
 static void set_free(Voice* voice, bool is_free) {
   voice->tension.is_free = is_free;
   if (is_free ? voice->tension.cents > 0.0 : voice->tension.is_moving) {
-    begin_stretch(voice);
+    begin_tension(voice);
   }
 }
 
@@ -364,7 +364,7 @@ void voice_aim(Voice* voice, const VoiceAim* aim, uint32_t n_glide) {
   if (is_played(voice)) {
     put_off(voice);
   }
-  n_glide = stretch(voice, aim, n_glide);
+  n_glide = tighten(voice, aim, n_glide);
   if (!glide(voice, aim, n_glide)) {
     glide_choked(voice, *aim, n_glide);
   }
@@ -552,7 +552,7 @@ bool voice_pass(Voice* voice, uint32_t n_frames) {
     voice->ledger.n_unseen += n_frames;
     voice->n_until_check -= n_frames;
     voice->n_choked += voice->is_choked ? n_frames : 0;
-    has_changed = pass_stretch(voice, n_frames) || has_changed;
+    has_changed = pass_tension(voice, n_frames) || has_changed;
     if (voice->n_until_check == 0) {
       check(voice);
     }

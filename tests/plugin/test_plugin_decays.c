@@ -1,6 +1,6 @@
 /* Presets that are named after real instruments die away as those do: T60 of partials 1 to 3 and 5
  * to 8, in the median over keys and partials, beside that of recordings. */
-#include "tests/support/guitar_host.h"
+#include "tests/support/measure.h"
 #include "tests/support/oracle.h"
 #include "tests/support/plugins.h"
 #include "tests/support/strings_host.h"
@@ -21,8 +21,6 @@ enum {
   HOP = 1024,
   MOST = 64
 };
-
-static const double PI = 3.14159265358979323846;
 
 /* How far a median may be from the recorded one. */
 static const double MOST_OFF = 0.3;
@@ -60,14 +58,7 @@ static double partial_hz(const Host* host, uint32_t key, int k) {
 }
 
 static double level_db(const float* samples, double hz) {
-  double re = 0.0;
-  double im = 0.0;
-  for (int i = 0; i < WINDOW; ++i) {
-    const double window = 0.5 - 0.5 * cos(2.0 * PI * i / WINDOW);
-    re += window * (double)samples[i] * cos(2.0 * PI * hz * i / RATE);
-    im += window * (double)samples[i] * sin(2.0 * PI * hz * i / RATE);
-  }
-  return 10.0 * log10(re * re + im * im + 1e-30);
+  return 20.0 * log10(measure_near(samples, WINDOW, RATE, hz) + 1e-15);
 }
 
 /* The straight line through the levels, from a tenth of a second on, as far as they are seen. */

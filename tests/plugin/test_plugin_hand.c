@@ -18,19 +18,6 @@ enum { RATE = 48000, BLOCK = 512, PLUCK = 0, STRIKE = 1, MOST_PARTIALS = 40 };
 
 static const double PI = 3.14159265358979323846;
 
-/* Amplitude of a partial of a sound that does not decay, under a Hann window. */
-static double amplitude_at(const float* samples, size_t n, double hz) {
-  double re = 0.0;
-  double im = 0.0;
-  for (size_t i = 0; i < n; ++i) {
-    const double window = 0.5 - 0.5 * cos(2.0 * PI * (double)i / (double)n);
-    const double angle = 2.0 * PI * hz * (double)i / RATE;
-    re += window * (double)samples[i] * cos(angle);
-    im += window * (double)samples[i] * sin(angle);
-  }
-  return 4.0 * hypot(re, im) / (double)n;
-}
-
 static double f0_of(uint32_t key) {
   return 440.0 * exp2((key - 69.0) / 12.0);
 }
@@ -65,12 +52,12 @@ static void a_pluck_is_that_of_a_string_pulled_aside(void** state) {
     for (uint32_t key = 28; key <= 52; key += 12) {
       Sound s = play(host, key, 127, 2 * RATE);
       const float* const from = s.left + RATE / 10;
-      const double first =
-          amplitude_at(from, RATE, f0_of(key)) / sin(PI * p) / (sense < 2 ? sin(PI * q) : 1.0);
+      const double first = measure_near(from, RATE, RATE, f0_of(key)) / sin(PI * p) /
+                           (sense < 2 ? sin(PI * q) : 1.0);
       for (int k = 2; k <= 12; ++k) {
         const double told = fabs(sin(PI * k * p) * (sense < 2 ? sin(PI * k * q) : 1.0)) /
                             pow(k, sense == 0 ? 2.0 : 1.0);
-        const double heard = amplitude_at(from, RATE, k * f0_of(key)) / first;
+        const double heard = measure_near(from, RATE, RATE, k * f0_of(key)) / first;
         /* Near a node a partial is as wrong as its neighbours are wide. */
         worst = told * pow(k, sense == 0 ? 2.0 : 1.0) > 0.2
                     ? fmax(worst, fabs(20.0 * log10(heard / told)))
@@ -90,7 +77,7 @@ static double brightness(Host* host, uint32_t key, uint32_t velocity) {
   double low = 0.0;
   double high = 0.0;
   for (int k = 1; k <= MOST_PARTIALS && k * f0_of(key) < 0.45 * RATE; ++k) {
-    const double a = amplitude_at(s.left, s.n_frames, k * f0_of(key));
+    const double a = measure_near(s.left, s.n_frames, RATE, k * f0_of(key));
     *(k <= 5 ? &low : &high) += a * a;
   }
   sound_free(&s);

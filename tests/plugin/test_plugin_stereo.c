@@ -13,8 +13,6 @@
 
 enum { RATE = 48000, BLOCK = 512, LOWEST = 33, HIGHEST = 96, N_PARTIALS = 16 };
 
-static const double PI = 3.14159265358979323846;
-
 /* What is promised [dB]: of the sum, of each partial in it, and between the sides; and how far
  * under the loudest a partial is none. */
 static const double MOST_LOST = 1.0;
@@ -26,17 +24,9 @@ typedef struct {
   double lost, one_lost, apart;
 } Worst;
 
-/* Power of a frequency under a Hann window. */
 static double power_at(const float* samples, size_t n, double hz) {
-  double re = 0.0;
-  double im = 0.0;
-  for (size_t i = 0; i < n; ++i) {
-    const double window = 0.5 - 0.5 * cos(2.0 * PI * (double)i / (double)n);
-    const double angle = 2.0 * PI * hz * (double)i / RATE;
-    re += window * (double)samples[i] * cos(angle);
-    im += window * (double)samples[i] * sin(angle);
-  }
-  return re * re + im * im;
+  const double amplitude = measure_near(samples, n, RATE, hz);
+  return amplitude * amplitude;
 }
 
 static double mean_square(const float* samples, size_t n) {
