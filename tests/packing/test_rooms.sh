@@ -12,10 +12,10 @@ import pathlib, re, sys
 BELOW = {
     'core/base': '', 'core/play': 'core/base', 'core/scale': 'core/base', 'core/string': 'core/base',
     'core/analysis': 'core/base core/string/pole', 'core/excite': 'core/base core/string',
-    'core/voice': 'core/base core/string core/excite',
-    'core/harp': 'core/base core/string core/excite core/voice core/play core/scale',
-    'core/guitar': 'core/base core/string core/excite core/voice core/play core/scale',
-    'plugin': 'core/base core/play core/scale core/voice core/harp core/guitar',
+    'core/bank': 'core/base core/string/pole', 'core/voice': 'core/base core/string core/bank core/excite',
+    'core/harp': 'core/base core/string core/bank core/excite core/voice core/play core/scale',
+    'core/guitar': 'core/base core/string core/bank core/excite core/voice core/play core/scale',
+    'plugin': 'core/base core/bank core/play core/scale core/voice core/harp core/guitar',
     'tools/host': 'core plugin tools/formats', 'tools/formats': 'core plugin',
     'tools/bench': 'core plugin tools', 'tools/commands': 'core plugin tools',
 }

@@ -1,0 +1,90 @@
+#include "core/bank/body.h"
+
+#include "core/base/complex_of.h"
+#include "core/base/maths.h"
+
+#include <complex.h>
+#include <math.h>
+
+/* A band is looked at in so many places. */
+enum { PLACES = 16 };
+
+/* What is leveled [Hz]. */
+static const double LOW_HZ = 80.0;
+static const double HIGH_HZ = 5000.0;
+
+double body_gain_square(const Body* body, double hz) {
+  double complex heard[2] = {0.0, 0.0};
+  for (uint32_t k = 0; k < body->n_modes; ++k) {
+    const BodyMode* const mode = &body->modes[k];
+    const double ratio = mode->f0_hz / hz;
+    /* q̈ = f/M over 1 − (F/f)² − i F/(Q f) */
+    const double complex d = complex_of(1.0 - ratio * ratio, -ratio / mode->q);
+    const double complex moved =
+        conj(d) / (mode->mass_kg * (creal(d) * creal(d) + cimag(d) * cimag(d)));
+    heard[0] += mode->radiation[0] * moved;
+    heard[1] += mode->radiation[1] * moved;
+  }
+  double square = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    square +=
+        0.5 * (creal(heard[side]) * creal(heard[side]) + cimag(heard[side]) * cimag(heard[side]));
+  }
+  return square;
+}
+
+static double band_hz(int band) {
+  return BODY_LOWEST_HZ * exp2(band / 3.0);
+}
+
+static double mean_over_band(const Body* body, double hz) {
+  double sum = 0.0;
+  for (int i = 0; i < PLACES; ++i) {
+    sum += body_gain_square(body, hz * exp2(((i + 0.5) / PLACES - 0.5) / 3.0));
+  }
+  return sum / PLACES;
+}
+
+void body_level(Body* body) {
+  double sum = 0.0;
+  int n = 0;
+  for (int band = 0; band < BODY_BANDS; ++band) {
+    body->power[band] = mean_over_band(body, band_hz(band));
+    if (band_hz(band) >= LOW_HZ && band_hz(band) <= HIGH_HZ) {
+      sum += body->power[band];
+      ++n;
+    }
+  }
+  if (!(sum > 0.0)) {
+    return;
+  }
+  const double square = BODY_POWER * n / sum;
+  for (uint32_t k = 0; k < body->n_modes; ++k) {
+    body->modes[k].radiation[0] *= sqrt(square);
+    body->modes[k].radiation[1] *= sqrt(square);
+  }
+  for (int band = 0; band < BODY_BANDS; ++band) {
+    body->power[band] *= square;
+  }
+}
+
+double body_power(const Body* body, BodyShape shape, double hz) {
+  const double at = clamp(3.0 * log2(hz * shape.size / BODY_LOWEST_HZ), 0.0, BODY_BANDS - 1.0);
+  const int band = (int)fmin(at, BODY_BANDS - 2.0);
+  const double share = at - band;
+  return (body->power[band] + share * (body->power[band + 1] - body->power[band])) / shape.damping;
+}
+
+void body_bank(const Body* body, BodyShape shape, double rate_hz, Bank* bank) {
+  bank_clear(bank);
+  for (uint32_t k = 0; k < body->n_modes; ++k) {
+    const BodyMode* const mode = &body->modes[k];
+    const double f0_hz = mode->f0_hz / shape.size;
+    const double tau_s = mode->q / (PI * f0_hz * shape.damping);
+    BankMode made = {.in = 1.0 / mode->mass_kg, .out = {mode->radiation[0], mode->radiation[1]}};
+    if (f0_hz < BODY_HIGHEST * rate_hz &&
+        pole_solve(rate_hz, (Tone){f0_hz, tau_s}, &made.pole) == STATUS_OK) {
+      bank_add(bank, made);
+    }
+  }
+}

@@ -1,0 +1,76 @@
+/**
+   A body: the modes that a wooden box, a board or a skin has where the strings pull at it.
+
+   A mode k is at F_k, loses 1/Q_k of itself, has the mass M_k where the strings are, and gives what
+   it speeds up by to the air on the left and on the right by the weights l_k and r_k.  With a force
+   f at the bridge,
+
+       q̈_k + (2π F_k/Q_k) q̇_k + (2π F_k)² q_k = f/M_k,   heard: Σ_k l_k q̈_k and Σ_k r_k q̈_k.
+
+   A body is made once, off the audio thread, and then only read: while Hooke is built
+   (presets/bodies/), or from a file.
+
+   Thread: any.
+*/
+#ifndef HOOKE_CORE_BANK_BODY_H
+#define HOOKE_CORE_BANK_BODY_H
+
+#include "core/bank/bank.h"
+
+#include <stdint.h>
+
+enum {
+  BODY_MAX_MODES = BANK_MAX_MODES,
+  BODY_BANDS = 36, /**< Thirds of octaves that its loudness is known in */
+};
+
+/** The middle of the first of those bands [Hz]; band i is at BODY_LOWEST_HZ · 2^(i/3). */
+#define BODY_LOWEST_HZ 10.0
+
+/** The mean gain of every body, in power, over thirds of octaves from 80 Hz to 5 kHz. */
+#define BODY_POWER 1.0
+
+typedef struct {
+  double f0_hz;        /**< F [Hz], > 0 */
+  double q;            /**< Q, > 0.5 */
+  double mass_kg;      /**< M [kg], > 0 */
+  double radiation[2]; /**< l and r [kg: heard is dimensionless for a force of 1 N], as body_level()
+                          leaves them */
+} BodyMode;
+
+typedef struct {
+  uint32_t n_modes;
+  BodyMode modes[BODY_MAX_MODES]; /**< The lowest first */
+  double power[BODY_BANDS];       /**< Mean over each band of (|left/f|² + |right/f|²)/2 */
+} Body;
+
+/** How a player changes a body. */
+typedef struct {
+  double size;    /**< All its frequencies are divided by it, > 0 */
+  double damping; /**< All its losses are multiplied by it, > 0 */
+} BodyShape;
+
+/** Make the gain of all modes together BODY_POWER by a factor of their radiation, and fill in
+ * `power`. A body that radiates nothing is left as it is, with no power. */
+void body_level(Body* body);
+
+/** (|left/f|² + |right/f|²)/2 at one frequency [Hz]. */
+double body_gain_square(const Body* body, double hz);
+
+/** The same, as the mean over the third of an octave around it, of a body of a shape: in a straight
+ * line between the bands that are known.  Real-time safe, and takes no longer for more modes. */
+double body_power(const Body* body, BodyShape shape, double hz);
+
+/**
+   Put the modes of a body that are below BODY_HIGHEST of the rate into a bank, at rest.
+
+   Their frequency and decay are exact at this rate; in is 1 kg/M.
+
+   Real-time safe.
+*/
+void body_bank(const Body* body, BodyShape shape, double rate_hz, Bank* bank);
+
+/** Of the rate: modes above are left out. */
+#define BODY_HIGHEST 0.45
+
+#endif
