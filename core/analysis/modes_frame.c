@@ -8,6 +8,9 @@
 /* Roundings that tell a β K_ij written in decimals from another number. */
 static const double ROUNDINGS = 32.0 * DBL_EPSILON;
 
+/* Beyond this the pairs that levers couple are too many for any solver. */
+static const uint64_t MOST_LINKS = UINT64_C(1) << 26;
+
 static int compare_links(const void* left, const void* right) {
   const FrameLink* const p = left;
   const FrameLink* const q = right;
@@ -264,7 +267,7 @@ Status frame_init(Frame* frame, const Network* network) {
       .part = malloc((network->n_masses + (size_t)1) * sizeof(uint32_t)),
       .part_root = malloc((network->n_masses + (size_t)1) * sizeof(double)),
       .root = malloc((network->n_masses + (size_t)1) * sizeof(double)),
-      .link = n_links < UINT32_MAX ? malloc((n_links + 1) * sizeof(FrameLink)) : NULL,
+      .link = n_links < MOST_LINKS ? malloc((n_links + 1) * sizeof(FrameLink)) : NULL,
       .lever = malloc((network->levers.n + (size_t)1) * sizeof(FrameLever)),
       .term = malloc((network->levers.n_terms + (size_t)1) * sizeof(FrameTerm)),
   };

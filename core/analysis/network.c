@@ -277,6 +277,11 @@ network_add_lever(Network* network, double stiffness, uint32_t n_terms, const Ne
   return STATUS_OK;
 }
 
+void network_load(Network* network, uint32_t point, double mass_kg) {
+  network->is_checked = false;
+  network->mass_kg[point] += mass_kg;
+}
+
 Status network_add_string(Network* network,
                           uint32_t n_masses,
                           double mass_kg,

@@ -126,6 +126,9 @@ Status network_add_damper(Network* network, uint32_t from, uint32_t to, double d
 Status
 network_add_lever(Network* network, double stiffness, uint32_t n_terms, const NetworkTerm* term);
 
+/** Make a mass heavier by `mass_kg`, ≥ 0 [kg]; a grounded point stays as it is. */
+void network_load(Network* network, uint32_t point, double mass_kg);
+
 /**
    Add a uniform string: `n_masses` masses in a row, then two grounded points, and n_masses + 1
    springs and as many dampers between neighbours and to the two ends; no damper where damping is 0.
