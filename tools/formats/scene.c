@@ -1,5 +1,6 @@
 #include "tools/formats/scene.h"
 
+#include "tools/formats/scene_body.h"
 #include "tools/formats/scene_reader.h"
 
 #include <float.h>
@@ -136,9 +137,25 @@ static bool read_line(SceneReader* reader) {
   static const struct {
     const char* word;
     bool (*take)(SceneReader* reader);
-  } statements[] = {{"rate", take_rate},     {"string", take_string}, {"mass", take_mass},
-                    {"ground", take_ground}, {"spring", take_spring}, {"damper", take_damper},
-                    {"at", take_event},      {"pickup", take_pickup}, {"end", take_end}};
+  } statements[] = {{"rate", take_rate},
+                    {"string", take_string},
+                    {"mass", take_mass},
+                    {"ground", take_ground},
+                    {"spring", take_spring},
+                    {"damper", take_damper},
+                    {"bend", scene_take_bend},
+                    {"twist", scene_take_twist},
+                    {"plate", scene_take_plate},
+                    {"membrane", scene_take_membrane},
+                    {"brace", scene_take_brace},
+                    {"air", scene_take_air},
+                    {"bridge", scene_take_bridge},
+                    {"radiate", scene_take_radiate},
+                    {"loss", scene_take_loss},
+                    {"above", scene_take_above},
+                    {"at", take_event},
+                    {"pickup", take_pickup},
+                    {"end", take_end}};
   if (!text_is_sound(&reader->text)) {
     return false;
   }
@@ -148,8 +165,11 @@ static bool read_line(SceneReader* reader) {
       return statements[i].take(reader);
     }
   }
-  return !word || text_fail(&reader->text, word,
-                            "rate, string, mass, ground, spring, damper, at, pickup or end");
+  return !word ||
+         text_fail(
+             &reader->text, word,
+             "rate, string, mass, ground, spring, damper, at, pickup, end, bend, twist, plate, "
+             "membrane, brace, air, bridge, radiate, loss or above");
 }
 
 /* The whole */
@@ -186,6 +206,11 @@ static bool is_whole(SceneReader* reader, ScenePurpose purpose) {
   if (!check_network(reader)) {
     return false;
   }
+  if (purpose == SCENE_FOR_BODY) {
+    return (reader->bridge.size || lacks(reader, "'bridge MASS WEIGHT'")) &&
+           (reader->radiators.size || lacks(reader, "'radiate NAME GAIN'")) &&
+           (reader->losses.size || lacks(reader, "'loss HZ Q'"));
+  }
   if (!reader->pickups.size && purpose == SCENE_FOR_SOUND) {
     return lacks(reader, "'pickup MASS GAIN'");
   }
@@ -217,8 +242,17 @@ static Scene* make_scene(SceneReader* reader) {
   scene->events = (SceneEvent*)(void*)reader->events.data;
   scene->n_pickups = reader->pickups.size / sizeof(ScenePickup);
   scene->pickups = (ScenePickup*)(void*)reader->pickups.data;
+  scene->n_bridge = reader->bridge.size / sizeof(ScenePickup);
+  scene->bridge = (ScenePickup*)(void*)reader->bridge.data;
+  scene->n_radiators = reader->radiators.size / sizeof(SceneRadiator);
+  scene->radiators = (SceneRadiator*)(void*)reader->radiators.data;
+  scene->n_losses = reader->losses.size / sizeof(SceneLoss);
+  scene->losses = (SceneLoss*)(void*)reader->losses.data;
+  scene->n_more = reader->more.size / sizeof(BodyMode);
+  scene->more = (BodyMode*)(void*)reader->more.data;
   reader->network = NULL;
   reader->events = reader->pickups = (Bytes){0};
+  reader->bridge = reader->radiators = reader->losses = reader->more = (Bytes){0};
   return scene;
 }
 
@@ -236,6 +270,10 @@ Scene* scene_new(const char* path, ScenePurpose purpose, char* error, size_t err
   bytes_clear(&reader.names);
   bytes_clear(&reader.events);
   bytes_clear(&reader.pickups);
+  bytes_clear(&reader.bridge);
+  bytes_clear(&reader.radiators);
+  bytes_clear(&reader.losses);
+  bytes_clear(&reader.more);
   return scene;
 }
 
@@ -244,6 +282,10 @@ void scene_free(Scene* scene) {
     network_free(scene->network);
     free(scene->events);
     free(scene->pickups);
+    free(scene->bridge);
+    free(scene->radiators);
+    free(scene->losses);
+    free(scene->more);
     free(scene);
   }
 }

@@ -118,7 +118,35 @@ static unsigned long place_on_string(const SceneName* name, const char* digits) 
   return i <= name->n_masses ? i : 0;
 }
 
-/* Take a point that is declared above; its word is quoted in `quote`. */
+/* The mass of a sheet that `dot` and what follows it name: .COLUMN.ROW. */
+static bool point_of_sheet(SceneReader* reader,
+                           const SceneName* name,
+                           const char* dot,
+                           uint32_t* point,
+                           const char* quote) {
+  static const TextRange COUNT = {"", 1.0, SCENE_MOST_COLUMNS, true};
+  Text* const text = &reader->text;
+  const uint32_t* const n = name->mesh.n;
+  char digits[8] = "";
+  const char* const second = dot ? strchr(dot + 1, '.') : NULL;
+  double column = 0.0;
+  double row = 0.0;
+  if (second && (size_t)(second - dot - 1) < sizeof(digits)) {
+    memcpy(digits, dot + 1, (size_t)(second - dot - 1));
+  }
+  if (!second || !text_is_number(digits, &COUNT, &column) ||
+      !text_is_number(second + 1, &COUNT, &row) || column > n[0] || row > n[1]) {
+    return text_fail_at(text, text->line,
+                        "found %s, expected one of the sheet's masses, .1.1 to .%lu.%lu after its "
+                        "name",
+                        quote, (unsigned long)n[0], (unsigned long)n[1]);
+  }
+  *point = scene_mesh_point(&name->mesh, (uint32_t)column, (uint32_t)row);
+  return !reader->network->is_ground[*point] ||
+         text_fail_at(text, text->line,
+                      "found %s, which lies outside of the outline, expected a mass inside", quote);
+}
+
 bool scene_point(SceneReader* reader, bool is_mass, uint32_t* point, char quote[TEXT_QUOTE_SIZE]) {
   Text* const text = &reader->text;
   char* const word = text_word(text);
@@ -133,11 +161,14 @@ bool scene_point(SceneReader* reader, bool is_mass, uint32_t* point, char quote[
                         "found %s, expected one of the string's masses, 1 to %lu after a dot",
                         quote, (unsigned long)name->n_masses);
   }
+  if (name && name->kind == SCENE_SHEET) {
+    return point_of_sheet(reader, name, dot, point, quote);
+  }
   if (!name || dot) {
     return text_fail(text, word, is_mass ? "a mass declared above" : "a point declared above");
   }
   *point = name->first;
-  return !is_mass || name->kind == SCENE_MASS ||
+  return !is_mass || name->kind != SCENE_GROUND ||
          text_fail_at(text, text->line, "found %s, a ground, expected a mass", quote);
 }
 

@@ -7,12 +7,13 @@
 #define HOOKE_TOOLS_FORMATS_SCENE_READER_H
 
 #include "core/analysis/network.h"
+#include "tools/formats/scene_mesh.h"
 #include "tools/formats/text.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef enum { SCENE_MASS, SCENE_GROUND, SCENE_STRING } SceneKind;
+typedef enum { SCENE_MASS, SCENE_GROUND, SCENE_STRING, SCENE_SHEET, SCENE_AIR } SceneKind;
 
 /** A name, and which points it stands for. */
 typedef struct {
@@ -21,6 +22,8 @@ typedef struct {
   uint32_t line;     /**< Where it is declared */
   uint32_t first;    /**< Its first point */
   uint32_t n_masses; /**< Of a string: the points from `first` on; the two ends follow */
+  SceneMesh mesh;    /**< Of a sheet */
+  double area_m2;    /**< Of air */
 } SceneName;
 
 typedef struct {
@@ -29,8 +32,12 @@ typedef struct {
   uint32_t* slots;  /**< A table of names by hash: a place in `names` plus 1, or 0 */
   uint32_t n_slots; /**< A power of 2, or 0 */
   Network* network;
-  Bytes events;  /**< SceneEvent each */
-  Bytes pickups; /**< ScenePickup each */
+  Bytes events;    /**< SceneEvent each */
+  Bytes pickups;   /**< ScenePickup each */
+  Bytes bridge;    /**< ScenePickup each */
+  Bytes radiators; /**< SceneRadiator each */
+  Bytes losses;    /**< SceneLoss each */
+  Bytes more;      /**< BodyMode each */
   double rate_hz;
   double end_s;
   uint32_t rate_line; /**< 0: not declared yet */
