@@ -33,12 +33,13 @@ static bool read_table(const char* path, Body* body, char* error, size_t error_s
   return is_read;
 }
 
-static bool read_scene(const char* path, Body* body, char* error, size_t error_size) {
+static bool
+read_scene(const char* path, Body* body, Reduction* reduction, char* error, size_t error_size) {
   Scene* const scene = scene_new(path, SCENE_FOR_BODY, error, error_size);
   if (!scene) {
     return false;
   }
-  const Status status = reduce_scene(scene, body, NULL);
+  const Status status = reduce_scene(scene, body, reduction);
   if (status) {
     (void)snprintf(error, error_size, "%s: could not find its modes: %s", path,
                    status_text(status));
@@ -47,12 +48,16 @@ static bool read_scene(const char* path, Body* body, char* error, size_t error_s
   return !status;
 }
 
-bool body_file_read(const char* path, Body* body, char* error, size_t error_size) {
+bool body_file_read(
+    const char* path, Body* body, Reduction* reduction, char* error, size_t error_size) {
+  if (reduction) {
+    *reduction = (Reduction){0};
+  }
   if (ends_with(path, ".body")) {
     return read_table(path, body, error, error_size);
   }
   if (ends_with(path, ".scene")) {
-    return read_scene(path, body, error, error_size);
+    return read_scene(path, body, reduction, error, error_size);
   }
   (void)snprintf(error, error_size,
                  "%s: found no body, expected a name that ends with .body or "
