@@ -99,8 +99,8 @@ static double strength(const BodyMode* mode) {
 }
 
 static bool is_heard(const Part* part) {
-  return part->omega > 2.0 * PI * REDUCE_LEAST_HZ && part->bridge != 0.0 &&
-         (part->heard[0] != 0.0 || part->heard[1] != 0.0);
+  return part->omega > 2.0 * PI * REDUCE_LEAST_HZ && part->omega < 2.0 * PI * REDUCE_MOST_HZ &&
+         part->bridge != 0.0 && (part->heard[0] != 0.0 || part->heard[1] != 0.0);
 }
 
 /* The modes of the network, and those beyond it. */

@@ -14,7 +14,8 @@
    alike on both sides.
 
    Modes of the same frequency are one, that which strings pull at.  What is not heard, 120 dB below
-   the loudest, is left out, and what hangs free, below REDUCE_LEAST_HZ; of more modes than a body
+   the loudest, is left out, and what hangs free, below REDUCE_LEAST_HZ,
+   or lies above REDUCE_MOST_HZ; of more modes than a body
    has room for, the strongest are kept, those with the largest  (l² + r²) Q/M².
 
    Thread: any.  Takes memory; calls LAPACK.
@@ -26,8 +27,9 @@
 #include "core/base/status.h"
 #include "tools/formats/scene.h"
 
-/** What is slower is no mode but drift [Hz]. */
+/** What is slower is no mode but drift, and what is faster is nobody's to hear [Hz]. */
 #define REDUCE_LEAST_HZ 1.0
+#define REDUCE_MOST_HZ 20000.0
 
 /** What became of a network's modes. */
 typedef struct {
