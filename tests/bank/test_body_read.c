@@ -197,7 +197,10 @@ static const struct {
     {"mode 100 20 1 . 1", 1, "'.'", "a radiation from -1e9 to 1e9"},
     {"mode 100 20 1 1", 1, "the end of the line", "a radiation from -1e9 to 1e9"},
     {"mode 100 20 1 1 1 1", 1, "'1'", "the end of the line"},
-    {"mode 100 20 1 1 \x01\xff#", 1, "'?" "?'", "a radiation from -1e9 to 1e9"},
+    {"mode 100 20 1 1 \x01\xff#", 1,
+     "'?"
+     "?'",
+     "a radiation from -1e9 to 1e9"},
     {"above 100 dense", 1, "'dense'", "'density'"},
     {"above 100 density 0", 1, "'0'", "a density from 1e-6 to 10 modes per Hz"},
     {"above 100 density 1 to q", 1, "'q'", "a density from 1e-6 to 10 modes per Hz"},
