@@ -306,12 +306,14 @@ static bool add_crowd(Reader* reader, const Crowd* crowd) {
   const double octaves = log(crowd->hz.to / crowd->hz.from);
   /* The first lies anywhere in a mean distance. */
   double n = draw_even(&draw);
-  for (double hz = crowd_hz(crowd, n); hz < crowd->hz.to; hz = crowd_hz(crowd, n)) {
+  double hz = crowd_hz(crowd, n);
+  while (hz < crowd->hz.to) {
     const double share = log(hz / crowd->hz.from) / octaves;
     if (!add_mode(reader, draw_mode(crowd, hz, share, &draw))) {
       return false;
     }
     n += fmax(LEAST_DISTANCE, sqrt(-4.0 / PI * log(draw_even(&draw))));
+    hz = crowd_hz(crowd, n);
   }
   return true;
 }

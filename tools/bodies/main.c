@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const char* const NAMES[BODIES_COUNT] = {
-#define NAME(name, file, text) [BODIES_##name] = file,
+#define NAME(name, file, text) [BODIES_##name] = (file),
     BODIES_LIST(NAME)
 #undef NAME
 };

@@ -191,9 +191,11 @@ Status scene_mesh_brace(Network* network,
   if (n == 0 || (columns != 0 && rows != 0 && llabs(columns) != llabs(rows))) {
     return STATUS_BAD_ARGUMENT;
   }
-  const int64_t step = rows / n * (int64_t)mesh->n[0] + columns / n;
+  const int64_t across = columns / n;
+  const int64_t along = rows / n;
+  const int64_t step = along * (int64_t)mesh->n[0] + across;
   const double length_m =
-      hypot((double)(columns / n) * mesh->spacing_m[0], (double)(rows / n) * mesh->spacing_m[1]);
+      hypot((double)across * mesh->spacing_m[0], (double)along * mesh->spacing_m[1]);
   const double stiffness = bending / pow(length_m, 3.0);
   Status status = STATUS_OK;
   for (int64_t i = 0; i <= n && !status; ++i) {
