@@ -10,23 +10,17 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* What the soft pedal does to hardness, and to loudness. */
 static const double SOFT_HARDNESS = -0.2;
 static const double SOFT_GAIN = 0.6;
 
-static void retune(Harp* harp, HarpString* string, uint32_t n_glide) {
-  string->lift = harp_channels_lift(harp, string);
-  harp_group_retune(string, n_glide);
-}
-
-static void retune_all(Harp* harp, uint32_t n_glide) {
-  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    retune(harp, &harp->strings[i], n_glide);
-  }
-}
+/* How hard a knock is beside the pluck's amplitude, and how long with the softest and the hardest
+ * of what plays [s]. */
+static const double KNOCK = 0.3;
+static const double SOFT_KNOCK_S = 0.006;
+static const double HARD_KNOCK_S = 0.0015;
 
 /* All that has a channel's touch takes it anew. */
 static void feel(Harp* harp, uint32_t channel) {
@@ -34,7 +28,7 @@ static void feel(Harp* harp, uint32_t channel) {
     HarpString* const string = &harp->strings[i];
     if (harp_channels_follows(string, channel)) {
       string->touch = harp->channels[channel].touch;
-      retune(harp, string, harp->n_gesture);
+      harp_channels_retune(harp, string, harp->n_gesture);
     }
   }
 }
@@ -76,10 +70,12 @@ static void tune_equally(Harp* harp) {
 }
 
 Harp* harp_new(double rate_hz) {
-  Harp* const harp = isfinite(rate_hz) && rate_hz > 0.0 ? calloc(1, sizeof(Harp)) : NULL;
+  Harp* const harp =
+      isfinite(rate_hz) && rate_hz > 0.0 ? aligned_new(_Alignof(Harp), sizeof(Harp)) : NULL;
   if (!harp) {
     return NULL;
   }
+  memset(harp, 0, sizeof(*harp));
   harp->rate_hz = rate_hz;
   harp->n_gesture = voice_gesture_frames(rate_hz);
   harp->onset = onset_pole(rate_hz);
@@ -90,6 +86,7 @@ Harp* harp_new(double rate_hz) {
   }
   harp_bridge_init(&harp->bridge, rate_hz);
   harp->noise_make = noise_make(rate_hz);
+  radiator_init(&harp->radiator);
   lay_out(harp, harp->memory);
   harp_channels_reset(harp->channels);
   tune_equally(harp);
@@ -100,7 +97,7 @@ void harp_free(Harp* harp) {
   if (harp) {
     harp_stereo_free(&harp->stereo);
     aligned_free(harp->memory);
-    free(harp);
+    aligned_free(harp);
   }
 }
 
@@ -124,6 +121,7 @@ void harp_reset(Harp* harp) {
   harp->dc = 0.0;
   memset(harp->onsets, 0, sizeof harp->onsets);
   harp_stereo_reset(&harp->stereo);
+  radiator_rest(&harp->radiator);
 }
 
 /* Whether what rings has the same coefficients under both. */
@@ -136,14 +134,22 @@ void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames) {
   const bool is_same = is_same_string(patch, &harp->patch);
   const uint32_t n_glide = n_frames > 0 && n_frames < harp->n_gesture ? harp->n_gesture : n_frames;
   harp->patch = *patch;
+  harp->patch.radiates = radiator_body(&harp->radiator, patch->body.choice);
   harp->n_fade = n_glide;
+  radiator_set(&harp->radiator, &patch->body, harp->rate_hz, n_glide);
+  harp_bridge_move(harp);
   set_level(harp, n_glide);
   if (n_glide == 0) {
     harp_mixer_place_pickups(harp);
   }
   if (!is_same) {
-    retune_all(harp, n_glide);
+    harp_channels_retune_all(harp, n_glide);
   }
+}
+
+void harp_set_body(Harp* harp, const Body* body) {
+  radiator_take_file(&harp->radiator, body);
+  harp->patch.radiates = radiator_body(&harp->radiator, harp->patch.body.choice);
 }
 
 void harp_set_scale(Harp* harp, uint32_t channel, const double semitones[HARP_KEYS], bool is_live) {
@@ -153,7 +159,7 @@ void harp_set_scale(Harp* harp, uint32_t channel, const double semitones[HARP_KE
     if (string->channel == channel && (is_live || !harp_group_is_awake(string)) &&
         semitones[string->key] != string->semitones) {
       tune(harp, string);
-      retune(harp, string, harp->n_gesture);
+      harp_channels_retune(harp, string, harp->n_gesture);
     }
   }
 }
@@ -189,6 +195,17 @@ static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t vel
 static void stop(Harp* harp, HarpString* string) {
   harp_mixer_hide_end(harp, string);
   harp_group_sleep(string);
+}
+
+/* The wood is pushed by what plays the strings: a hard thing for a shorter time. */
+static void knock(Harp* harp, uint32_t channel, Pluck pluck) {
+  const double hardness = clamp(pluck_played(pluck.hardness, pluck.softness), 0.0, 1.0);
+  const double time_s = SOFT_KNOCK_S * pow(HARD_KNOCK_S / SOFT_KNOCK_S, hardness);
+  const double gain = harp->level.value * harp->channels[channel].gain.value;
+  const double force = KNOCK * harp->patch.body.knock * gain * pluck.amplitude;
+  if (force > 0.0 && harp->patch.exciter != EXCITER_BOW) {
+    radiator_knock(&harp->radiator, force, (uint32_t)(time_s * harp->rate_hz));
+  }
 }
 
 static void make_noise(Harp* harp, uint32_t channel, Pluck pluck) {
@@ -238,6 +255,7 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   }
   if (string->voice.is_awake && !string->voice.is_choked) {
     make_noise(harp, channel, own);
+    knock(harp, channel, own);
   }
 }
 
@@ -248,7 +266,7 @@ static void raise_key(Harp* harp, HarpString* string) {
   harp_group_lift(string);
   if (was_leaned_on || string->lift != harp_channels_lift(harp, string) ||
       tie_is_on(&string->voice.tie)) {
-    retune(harp, string, harp->n_gesture);
+    harp_channels_retune(harp, string, harp->n_gesture);
   }
 }
 
@@ -261,7 +279,7 @@ static void hand_on(Harp* harp, HarpString* string) {
   (void)harp_channels_hand(harp, string, channel, false);
   string->touch = harp->channels[channel].touch;
   tune(harp, string);
-  retune(harp, string, harp->n_gesture);
+  harp_channels_retune(harp, string, harp->n_gesture);
 }
 
 /* A channel lets go of the key; the last one to do so lifts it. */
@@ -294,7 +312,7 @@ static void move_dampers(Harp* harp, uint32_t channel) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
     if (string->channel == channel && string->lift != harp_channels_lift(harp, string)) {
-      retune(harp, string, harp->n_gesture);
+      harp_channels_retune(harp, string, harp->n_gesture);
     }
   }
 }
@@ -336,7 +354,7 @@ void harp_press_key(Harp* harp, uint32_t channel, uint32_t key, double pressure)
   HarpString* const string = harp_channels_held(harp, channel, key);
   if (string && string->leaned_on != pressure) {
     string->leaned_on = pressure;
-    retune(harp, string, harp->n_gesture);
+    harp_channels_retune(harp, string, harp->n_gesture);
   }
 }
 

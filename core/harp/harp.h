@@ -44,6 +44,9 @@ void harp_reset(Harp* harp);
    once).  How and where it is plucked, and the most masses, hold from the next pluck on. */
 void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames);
 
+/** What BODIES_FILE is from now on; NULL: no body.  It is copied. */
+void harp_set_body(Harp* harp, const Body* body);
+
 /**
    Tune the keys of a channel anew.  What it has played glides there by a gesture if `is_live`, and
    else keeps its pitch until it is played again; what is at rest is tuned at once.

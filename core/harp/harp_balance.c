@@ -33,8 +33,8 @@ enum { ONE_BY_ONE = 32, RUN = 4 };
 static const double GOLDEN = 0.61803398874989485;
 
 /* What turns by an angle from mode to mode: the string's shape, the exciter's two cosines, and the
- * sines at the masses that are read. */
-enum { STRING, EXCITED, TAPPED = 3, MOST_TURNS = TAPPED + 2 };
+ * sines at the masses that are read, and at the one that pulls at the body. */
+enum { STRING, EXCITED, TAPPED = 3, PULLED = TAPPED + 2, MOST_TURNS };
 
 typedef struct {
   double angle[MOST_TURNS];
@@ -49,7 +49,10 @@ typedef struct {
   PickupType pickup_type;
   double weights[2];
   double rate_hz;
-  double both;               /* What both sides have of the square of what is read */
+  double both;      /* What both sides have of the square of what is read */
+  const Body* body; /* NULL: none */
+  BodyShape shape;
+  double pull;               /* Its weight squared where it is pulled at, both sides together */
   const HarpMember* members; /* NULL: one */
   bool is_held;              /* None of them dies */
 } Heard;
@@ -98,6 +101,11 @@ static double square_read(const Heard* heard, const double* sines, double a) {
   return heard->both * read * read * (heard->pickup_type == PICKUP_VELOCITY ? a : 1.0);
 }
 
+/* Of what the body makes of a partial. */
+static double square_radiated(const Heard* heard, double sine, double hz) {
+  return heard->body ? heard->pull * sine * sine * body_power(heard->body, heard->shape, hz) : 0.0;
+}
+
 /* And what all members make of a mode that is as loud as `weighed` when it begins. */
 static void add_together(Power* power, const Heard* heard, Pole mode, double weighed) {
   const double n_frames = WINDOW_S * heard->rate_hz;
@@ -113,10 +121,12 @@ static void add(Power* power, const Heard* heard, uint32_t k, const double* turn
   const double lambda = 2.0 - 2.0 * turned[STRING];
   const Pole mode = {fmin(LARGEST_A, (c->k1 + (c->k2 + c->k3 * lambda) * lambda) * lambda),
                      c->z0 + c->z1 * lambda};
-  const double hz = heard->rate_hz / (2.0 * PI);
+  const double square_hz =
+      heard->rate_hz * heard->rate_hz / (4.0 * PI * PI) * square_of_angle(mode.a);
   const double plain = 0.5 * n * spectrum_square(&heard->spectrum, k, mode, &turned[EXCITED]) *
-                       square_read(heard, &turned[TAPPED], mode.a);
-  const double weighed = plain * k_weight(hz * hz * square_of_angle(mode.a));
+                       (square_read(heard, &turned[TAPPED], mode.a) +
+                        square_radiated(heard, turned[PULLED], sqrt(square_hz)));
+  const double weighed = plain * k_weight(square_hz);
   power->plain += plain;
   power->begun += weighed;
   power->whole += weighed * kept(0.5 * mode.g * WINDOW_S * heard->rate_hz);
@@ -191,7 +201,14 @@ set_taps(Heard* heard, Turns* turns, const HarpPatch* patch, const HarpBalance* 
   const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
   const ChainTap tap = pickup_tap_of_type(patch->pickup_type, string->n_masses, patch->pickup,
                                           2.0 * PI * f0_hz / string->target.rate_hz);
-  heard->both = 2.0 + patch->spread * patch->spread;
+  const double mix = patch->radiates ? patch->body.mix : 0.0;
+  const double force =
+      (double)pickup_tap_of_type(PICKUP_FORCE, string->n_masses, 0.0, 0.0).weight[0];
+  heard->both = (1.0 - mix) * (2.0 + patch->spread * patch->spread);
+  heard->body = patch->radiates;
+  heard->shape = patch->body.shape;
+  heard->pull = 2.0 * mix * force * force;
+  turns->angle[PULLED] = turns->angle[STRING];
   for (int i = 0; i < 2; ++i) {
     turns->angle[TAPPED + i] = turns->angle[STRING] * (tap.mass[i] + 1.0);
     heard->weights[i] = (double)tap.weight[i];

@@ -102,18 +102,29 @@ static Sums sum_modes(StringCoefs coefs, uint32_t n_masses, const Place* place) 
   }
 }
 
-static BridgeTie tie_of(const Sums* sums, StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {
+static BridgeTie tie_of(
+    const Bridge* bridge, const Sums* sums, StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {
   const double weight = hold.mass / (n_masses + 1.0);
   const double pull = hold.lever * coefs.k1;
   const double strength = weight * pull * pull;
   const double load = strength * (sums->slow + sums->fast);
-  const double kept = fmin(1.0, BRIDGE_MOST_LOAD / load);
+  const double kept = fmin(1.0, BRIDGE_MOST_LOAD / (load * bridge->give));
   return (BridgeTie){
       .weight = weight,
       .pull = sqrt(kept) * pull,
       .spring = kept * strength * sums->slow,
       .load = kept * load,
   };
+}
+
+/* 1/S(z), how stiff the bridge is there. */
+static double complex stiffness_at(const Bridge* bridge, const Place* place) {
+  const Bank* const bank = &bridge->bank;
+  double complex sum = 0.0;
+  for (uint32_t i = 0; i < bank->n_added; ++i) {
+    sum += bank->in[i] * inverse(d_of(place, (Pole){bank->a[i], bank->g[i]}));
+  }
+  return inverse(sum);
 }
 
 /* ε of a string's fundamental. */
@@ -123,9 +134,9 @@ static double complex pull_of_bridge(const Bridge* bridge,
                                      BridgeHold hold,
                                      const Place* place) {
   const Sums sums = sum_modes(coefs, n_masses, place);
-  const BridgeTie tie = tie_of(&sums, coefs, n_masses, hold);
+  const BridgeTie tie = tie_of(bridge, &sums, coefs, n_masses, hold);
   const double strength = tie.weight * tie.pull * tie.pull;
-  const double complex bare = d_of(place, bridge->bare);
+  const double complex bare = stiffness_at(bridge, place);
   return strength * sums.first * inverse(bare + tie.spring - strength * sums.rest);
 }
 
@@ -155,9 +166,33 @@ static Pole own_pole(Wish* wish, double complex pull) {
   return own;
 }
 
-Bridge bridge_at(double rate_hz) {
+/* Its modes are there. */
+static void settle(Bridge* bridge) {
+  const Bank* const bank = &bridge->bank;
+  bridge->y = 0.0;
+  bridge->is_leaving = false;
+  bridge->give = 0.0;
+  for (uint32_t i = 0; i < bank->n_added; ++i) {
+    bridge->give += bank->in[i] / (4.0 - 2.0 * bank->g[i] - bank->a[i]);
+  }
+}
+
+void bridge_init(Bridge* bridge, double rate_hz) {
   const double angle = fmin(2.0 * PI * BRIDGE_HZ / rate_hz, MOST_BRIDGE_ANGLE);
-  return (Bridge){.bare = {.a = angle * angle, .g = 2.0 * BRIDGE_ZETA * angle}};
+  bank_clear(&bridge->bank);
+  bank_add(&bridge->bank,
+           (BankMode){.pole = {.a = angle * angle, .g = 2.0 * BRIDGE_ZETA * angle}, .in = 1.0});
+  settle(bridge);
+}
+
+void bridge_init_on(Bridge* bridge, const Body* body, BodyShape shape, double rate_hz) {
+  body_bank(body, shape, rate_hz, &bridge->bank);
+  settle(bridge);
+}
+
+void bridge_rest(Bridge* bridge) {
+  bank_rest(&bridge->bank);
+  bridge->y = 0.0;
 }
 
 double bridge_mass(double f0_hz) {
@@ -165,13 +200,13 @@ double bridge_mass(double f0_hz) {
   return MOST_MASS / ((1.0 + f0_hz / MASS_HALVED_HZ) * (1.0 + high * high));
 }
 
-BridgeTie bridge_tie(StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {
+BridgeTie bridge_tie(const Bridge* bridge, StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {
   const Sums sums = sum_modes(coefs, n_masses, NULL);
-  return tie_of(&sums, coefs, n_masses, hold);
+  return tie_of(bridge, &sums, coefs, n_masses, hold);
 }
 
 double bridge_headroom(const Bridge* bridge, double load) {
-  return 1.0 - 0.25 * (bridge->bare.a + 2.0 * bridge->bare.g + load);
+  return 1.0 - bridge->give * load;
 }
 
 /* What to ask of the string for its fundamental to have a pole; what sits between the masses stays.
@@ -203,7 +238,7 @@ TuningTarget bridge_correct(const Bridge* bridge,
       .radius = sqrt(1.0 - g),
       .least = g * (target.loss + LEAST_GROUND * (1.0 - target.loss)),
   };
-  if (!(hold.mass * hold.lever > 0.0)) {
+  if (!(hold.mass * hold.lever > 0.0) || bridge->bank.n_added == 0) {
     return target;
   }
   Pole own = guess(&target, g, shift);
@@ -226,4 +261,8 @@ TuningTarget bridge_correct(const Bridge* bridge,
   const TuningTarget asked = ask(target, g, own);
   *shift = (BridgeShift){asked.tone.f0_hz / target.tone.f0_hz, g > 0.0 ? own.g / g : 1.0};
   return asked;
+}
+
+void bridge_step(Bridge* bridge, double force, double spring) {
+  bridge->y = bank_push(&bridge->bank, force - spring * bridge->y);
 }

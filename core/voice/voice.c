@@ -104,7 +104,7 @@ static bool
 retune_tied(Voice* voice, const TuningTarget* target, BridgeHold hold, uint32_t n_glide) {
   Tie* const tie = &voice->tie;
   uint32_t n_masses = 0;
-  tie_take_masses(tie, &voice->chain);
+  tie_take_masses(tie, voice->bridge, &voice->chain);
   if (!tie_is_wanted(hold) && !tie_is_on(tie)) {
     return retune(voice, target, false, n_glide);
   }
@@ -115,8 +115,8 @@ retune_tied(Voice* voice, const TuningTarget* target, BridgeHold hold, uint32_t 
       return false;
     }
   } while (voice->chain.n_masses < n_masses);
-  tie_take_masses(tie, &voice->chain);
-  tie_glide(tie, &voice->chain, hold, n_glide);
+  tie_take_masses(tie, voice->bridge, &voice->chain);
+  tie_glide(tie, voice->bridge, &voice->chain, hold, n_glide);
   return true;
 }
 
@@ -236,7 +236,7 @@ static bool act_played(Voice* voice) {
   }
   const bool is_gliding = intonation_hear(&voice->intonation, &voice->chain, voice->bow.before);
   if (is_gliding) {
-    tie_follow(&voice->tie, &voice->chain);
+    tie_follow(&voice->tie, voice->bridge, &voice->chain);
   }
   const bool has_left = !is_played(voice);
   if (has_left || voice->n_until_check == 1) {
