@@ -5,9 +5,10 @@ Sources are found by where they lie, so that a new one needs no line here:
     core/*/*.c             a static library, in the plugin and in everything else
     core/*/*_avx2.c        the part of it for processors with AVX2 and FMA, which is chosen when it runs
     core/analysis/*.c      what needs LAPACK: a library for the program and the tests, and no part of the plugin
+    presets/bodies/        networks and tables which a program reduces to core/bank/bodies.c, see tools/native.py
     plugin/*.c             the plugin, hooke.lv2/hooke.so, and a static library for the bench and the tests
     ttl/, presets/         the plugin's descriptions and presets, beside it; ttl/modgui/, a pedal for MOD's hosts
-    tools/commands/main.c  the program `hooke`; the other tools/*/*.c are a library which the tests share
+    tools/commands/main.c  the program `hooke`; the tools/*/*.c but main.c are a library which the tests share
     tests/*/test_*.c       a test program each; the rest of tests/support/*.c is linked into all of them
     tests/support/plant_*  a library each, built as the plugin is, with a fault that a test has to find
     tests/hosts/*.c        a program each, for the tests that run hosts; watch_*.c are one library, preloaded into them
@@ -25,7 +26,7 @@ import sys
 import tempfile
 
 from tests import allowed, fuzzing, memcheck, runner, sanitizing
-from tools import cross, packing
+from tools import cross, native, packing
 from waflib import Build, Configure, Context, Errors, Options
 
 APPNAME = 'hooke'
@@ -113,7 +114,7 @@ def configure(conf):
 def keep_environment(conf):
     kept = getattr(conf.options, 'environment', {})
     conf.environ.update({name: value for name, value in kept.items() if name not in conf.environ})
-    names = ['CC', 'AR', 'CFLAGS', 'CPPFLAGS', 'LDFLAGS', 'LINKFLAGS', 'PKG_CONFIG_PATH']
+    names = ['CC', 'CC_FOR_BUILD', 'AR', 'CFLAGS', 'CPPFLAGS', 'LDFLAGS', 'LINKFLAGS', 'PKG_CONFIG_PATH']
     conf.options.environment = {name: conf.environ[name] for name in names if name in conf.environ}
 
 
@@ -185,6 +186,7 @@ def set_flags(conf):
         cross.suit_windows(conf)
     elif conf.env.DEST_OS != 'darwin':
         conf.env.PLUGIN_LINKFLAGS = ['-Wl,--exclude-libs,ALL', '-Wl,--as-needed'] + WHOLE
+    native.configure(conf, flags)
     if conf.options.sanitize:
         add_sanitizers(conf)
 
@@ -222,7 +224,8 @@ def refuse_late_options(bld):
 
 def build_core(bld):
     for_avx2 = 'core/*/*_avx2.c'
-    sources = bld.path.ant_glob('core/*/*.c', excl=[ANALYSIS, for_avx2])
+    native.build(bld)
+    sources = bld.path.ant_glob('core/*/*.c', excl=[ANALYSIS, for_avx2]) + [native.bodies(bld)]
     if bld.env.DEST_CPU == 'x86_64':
         bld.objects(source=bld.path.ant_glob(for_avx2), target='hooke_avx2', cflags=['-fPIC'] + AVX2,
                     defines=['HOOKE_AVX2'])
@@ -259,7 +262,7 @@ def build_tools(bld):
     defines = ['HOOKE_VERSION="%s"' % VERSION, 'HOOKE_LV2DIR="%s"' % bld.env.LV2DIR]
     library(bld, 'hooke_parts', bld.path.ant_glob('plugin/*.c'), use='hooke_core LV2 M')
     use = 'hooke_parts hooke_analysis hooke_core LILV SNDFILE LV2 M DL PTHREAD'
-    library(bld, 'hooke_tools', bld.path.ant_glob('tools/*/*.c', excl=['tools/commands/main.c']), use=use, defines=defines)
+    library(bld, 'hooke_tools', bld.path.ant_glob('tools/*/*.c', excl=['tools/*/main.c']), use=use, defines=defines)
     for node in bld.path.ant_glob('tools/commands/main.c'):
         bld.program(source=[node], target='hooke', name='hooke_program', use='hooke_tools ' + use, defines=defines)
     bld.install_files('${MANDIR}/man1', 'doc/hooke.1')

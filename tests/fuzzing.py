@@ -6,6 +6,8 @@ fuzz_NAME looks for more with libFuzzer, which only clang has, in code that ASan
 
 import os
 
+from tools import native
+
 # What a harness needs of tools/; the rest of it needs libraries that are none of ours to fuzz.
 TOOLS = ['tools/formats/%s.c' % name for name in ['bytes', 'escape', 'text', 'smf', 'scene*', 'score*']]
 
@@ -61,7 +63,7 @@ def build(bld, analysis, avx2):
     if bld.env.NO_FUZZING:
         return
     for_avx2 = bld.path.ant_glob('core/*/*_avx2.c') if bld.env.DEST_CPU == 'x86_64' else []
-    core = bld.path.ant_glob('core/*/*.c', excl=[analysis, 'core/*/*_avx2.c'])
+    core = bld.path.ant_glob('core/*/*.c', excl=[analysis, 'core/*/*_avx2.c']) + [native.bodies(bld)]
     defines = ['HOOKE_AVX2'] if for_avx2 else []
     rest = bld.path.ant_glob(TOOLS + ['plugin/*.c', analysis]) + helpers(bld)
 

@@ -17,7 +17,7 @@ BELOW = {
     'core/guitar': 'core/base core/string core/bank core/excite core/voice core/play core/scale',
     'plugin': 'core/base core/bank core/play core/scale core/voice core/harp core/guitar',
     'tools/host': 'core plugin tools/formats', 'tools/formats': 'core plugin',
-    'tools/bench': 'core plugin tools', 'tools/commands': 'core plugin tools',
+    'tools/bodies': 'core tools/formats', 'tools/bench': 'core plugin tools', 'tools/commands': 'core plugin tools',
 }
 # One idea each: what a hammer is to do is found by rehearsing it; a chain and what its masses are kept in; a host's inside.
 ONE = [{'core/excite/hammer', 'core/excite/rehearsal'}, {'core/string/chain', 'core/string/chain_numbers'},

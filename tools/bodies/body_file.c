@@ -1,0 +1,42 @@
+#include "tools/bodies/body_file.h"
+
+#include "core/bank/body_read.h"
+#include "tools/formats/bytes.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_SIZE = 16 << 20 };
+
+static bool ends_with(const char* path, const char* ending) {
+  const size_t length = strlen(path);
+  return length > strlen(ending) && !strcmp(path + length - strlen(ending), ending);
+}
+
+static bool
+take_table(const char* path, const Bytes* text, Body* body, char* error, size_t error_size) {
+  BodyError wrong;
+  if (body_read((const char*)text->data, text->size, body, &wrong)) {
+    (void)snprintf(error, error_size, "%s:%u: found %s, expected %s", path, wrong.line, wrong.found,
+                   wrong.expected);
+    return false;
+  }
+  return true;
+}
+
+static bool read_table(const char* path, Body* body, char* error, size_t error_size) {
+  Bytes text = {0};
+  const bool is_read = bytes_read(&text, path, MAX_SIZE, error, error_size) &&
+                       take_table(path, &text, body, error, error_size);
+  bytes_clear(&text);
+  return is_read;
+}
+
+bool body_file_read(const char* path, Body* body, char* error, size_t error_size) {
+  if (ends_with(path, ".body")) {
+    return read_table(path, body, error, error_size);
+  }
+  (void)snprintf(error, error_size, "%s: found no table, expected a name that ends with .body",
+                 path);
+  return false;
+}
