@@ -2,7 +2,6 @@
 #ifndef HOOKE_CORE_HARP_HARP_STATE_H
 #define HOOKE_CORE_HARP_HARP_STATE_H
 
-#include "core/bank/radiator.h"
 #include "core/base/line.h"
 #include "core/excite/noise.h"
 #include "core/harp/harp_group.h"
@@ -12,6 +11,7 @@
 #include "core/string/chain.h"
 #include "core/voice/bridge.h"
 #include "core/voice/onset.h"
+#include "core/voice/radiator.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -8,8 +8,8 @@
 
    Thread: one at a time; real-time safe.
 */
-#ifndef HOOKE_CORE_BANK_RADIATOR_H
-#define HOOKE_CORE_BANK_RADIATOR_H
+#ifndef HOOKE_CORE_VOICE_RADIATOR_H
+#define HOOKE_CORE_VOICE_RADIATOR_H
 
 #include "core/bank/bodies.h"
 #include "core/base/line.h"

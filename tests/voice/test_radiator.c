@@ -1,5 +1,5 @@
 /* A body is heard as its bank is, beside the strings, however it is changed and cut into calls. */
-#include "core/bank/radiator.h"
+#include "core/voice/radiator.h"
 
 #include "tests/support/oracle.h"
 #include "tests/support/random.h"

@@ -1,4 +1,4 @@
-#include "core/bank/radiator.h"
+#include "core/voice/radiator.h"
 
 #include "core/base/maths.h"
 
