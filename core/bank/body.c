@@ -13,13 +13,15 @@ enum { PLACES = 16 };
 static const double LOW_HZ = 80.0;
 static const double HIGH_HZ = 5000.0;
 
-double body_gain_square(const Body* body, double hz) {
+static const BodyShape AS_IT_IS = {1.0, 1.0};
+
+double body_gain_square(const Body* body, BodyShape shape, double hz) {
   double complex heard[2] = {0.0, 0.0};
   for (uint32_t k = 0; k < body->n_modes; ++k) {
     const BodyMode* const mode = &body->modes[k];
-    const double ratio = mode->f0_hz / hz;
+    const double ratio = mode->f0_hz / (hz * shape.size);
     /* q̈ = f/M over 1 − (F/f)² − i F/(Q f) */
-    const double complex d = complex_of(1.0 - ratio * ratio, -ratio / mode->q);
+    const double complex d = complex_of(1.0 - ratio * ratio, -ratio * shape.damping / mode->q);
     const double complex moved =
         conj(d) / (mode->mass_kg * (creal(d) * creal(d) + cimag(d) * cimag(d)));
     heard[0] += mode->radiation[0] * moved;
@@ -40,7 +42,7 @@ static double band_hz(int band) {
 static double mean_over_band(const Body* body, double hz) {
   double sum = 0.0;
   for (int i = 0; i < PLACES; ++i) {
-    sum += body_gain_square(body, hz * exp2(((i + 0.5) / PLACES - 0.5) / 3.0));
+    sum += body_gain_square(body, AS_IT_IS, hz * exp2(((i + 0.5) / PLACES - 0.5) / 3.0));
   }
   return sum / PLACES;
 }

@@ -54,8 +54,8 @@ typedef struct {
  * `power`. A body that radiates nothing is left as it is, with no power. */
 void body_level(Body* body);
 
-/** (|left/f|² + |right/f|²)/2 at one frequency [Hz]. */
-double body_gain_square(const Body* body, double hz);
+/** (|left/f|² + |right/f|²)/2 at one frequency [Hz].  Real-time safe. */
+double body_gain_square(const Body* body, BodyShape shape, double hz);
 
 /** The same, as the mean over the third of an octave around it, of a body of a shape: in a straight
  * line between the bands that are known.  Real-time safe, and takes no longer for more modes. */

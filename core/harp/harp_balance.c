@@ -32,6 +32,9 @@ static const double LARGEST_A = 3.999;
 enum { ONE_BY_ONE = 32, RUN = 4 };
 static const double GOLDEN = 0.61803398874989485;
 
+/* Partials whose place between the body's modes matters. */
+enum { MET_BY_MODES = 8 };
+
 /* What turns by an angle from mode to mode: the string's shape, the exciter's two cosines, and the
  * sines at the masses that are read, and at the one that pulls at the body. */
 enum { STRING, EXCITED, TAPPED = 3, PULLED = TAPPED + 2, MOST_TURNS };
@@ -101,9 +104,14 @@ static double square_read(const Heard* heard, const double* sines, double a) {
   return heard->both * read * read * (heard->pickup_type == PICKUP_VELOCITY ? a : 1.0);
 }
 
-/* Of what the body makes of a partial. */
-static double square_radiated(const Heard* heard, double sine, double hz) {
-  return heard->body ? heard->pull * sine * sine * body_power(heard->body, heard->shape, hz) : 0.0;
+/* Of what the body makes of partial k: which of its modes the lowest meet is heard. */
+static double square_radiated(const Heard* heard, uint32_t k, double sine, double hz) {
+  if (!heard->body) {
+    return 0.0;
+  }
+  const double power = k <= MET_BY_MODES ? body_gain_square(heard->body, heard->shape, hz)
+                                         : body_power(heard->body, heard->shape, hz);
+  return heard->pull * sine * sine * power;
 }
 
 /* And what all members make of a mode that is as loud as `weighed` when it begins. */
@@ -125,7 +133,7 @@ static void add(Power* power, const Heard* heard, uint32_t k, const double* turn
       heard->rate_hz * heard->rate_hz / (4.0 * PI * PI) * square_of_angle(mode.a);
   const double plain = 0.5 * n * spectrum_square(&heard->spectrum, k, mode, &turned[EXCITED]) *
                        (square_read(heard, &turned[TAPPED], mode.a) +
-                        square_radiated(heard, turned[PULLED], sqrt(square_hz)));
+                        square_radiated(heard, k, turned[PULLED], sqrt(square_hz)));
   const double weighed = plain * k_weight(square_hz);
   power->plain += plain;
   power->begun += weighed;
