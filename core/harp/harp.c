@@ -18,7 +18,7 @@ static const double SOFT_GAIN = 0.6;
 
 /* How hard a knock is beside the pluck's amplitude, and how long with the softest and the hardest
  * of what plays [s]. */
-static const double KNOCK = 0.3;
+static const double KNOCK = 2.0;
 static const double SOFT_KNOCK_S = 0.006;
 static const double HARD_KNOCK_S = 0.0015;
 
