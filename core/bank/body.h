@@ -50,6 +50,10 @@ typedef struct {
   double damping; /**< All its losses are multiplied by it, > 0 */
 } BodyShape;
 
+/** Keep the `n_modes` that are heard most, by what each gives to a third of an octave in power, in
+ * their order; what is heard of them is as loud as it was. */
+void body_keep(Body* body, uint32_t n_modes);
+
 /** Make the gain of all modes together BODY_POWER by a factor of their radiation, and fill in
  * `power`. A body that radiates nothing is left as it is, with no power. */
 void body_level(Body* body);
