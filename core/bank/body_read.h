@@ -57,6 +57,10 @@ typedef struct {
 */
 Status body_read(const char* text, size_t n_bytes, Body* body, BodyError* error);
 
+/** The same, but for what body_level() and body_sort() do: the modes as they come and as loud as
+ * they say, and no power.  There need be none. */
+Status body_read_modes(const char* text, size_t n_bytes, Body* body, BodyError* error);
+
 /** Put the modes of a body in order, the lowest first. */
 void body_sort(Body* body);
 
