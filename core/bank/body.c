@@ -47,6 +47,14 @@ static double mean_over_band(const Body* body, double hz) {
   return sum / PLACES;
 }
 
+void body_narrow(BodyMode* mode) {
+  const double both = 0.5 * (mode->radiation[0] + mode->radiation[1]);
+  const double most = BODY_APART * fabs(both);
+  const double apart = clamp(0.5 * (mode->radiation[0] - mode->radiation[1]), -most, most);
+  mode->radiation[0] = both + apart;
+  mode->radiation[1] = both - apart;
+}
+
 /* What a mode gives to a third of an octave: the square of its peak, and its width. */
 static double strength(const BodyMode* mode) {
   const double sides =

@@ -278,12 +278,14 @@ static BodyMode draw_mode(const Crowd* crowd, double hz, double share, Draw* dra
   const double both = draw_normal(draw);
   const double apart = 0.5 * draw_normal(draw);
   const double radiation = at_share(crowd->radiation, share) * sqrt(0.8) / strings;
-  return (BodyMode){
+  BodyMode mode = {
       .f0_hz = hz,
       .q = at_share(crowd->q, share),
       .mass_kg = at_share(crowd->mass, share) / (strings * strings),
       .radiation = {radiation * (both + apart), radiation * (both - apart)},
   };
+  body_narrow(&mode);
+  return mode;
 }
 
 static bool add_crowd(Reader* reader, const Crowd* crowd) {

@@ -19,7 +19,7 @@
 
        M_k = M/b²,   l_k = R (c + d/2)/b √(4/5),   r_k = R (c − d/2)/b √(4/5),
 
-   with b kept from 0 by LEAST_SHARE; low modes are so heard alike on both sides to 0.6.
+   with b kept from 0 by LEAST_SHARE, and both sides brought near by body_narrow().
 
    Thread: any.
 */
