@@ -76,10 +76,15 @@ static void make_printable(TunerFault* fault) {
   }
 }
 
+/* What is not plain was not opened, so the system has no words for it. */
+static const char* reason(int why) {
+  return why == EINVAL ? "not a plain file" : strerror(why);
+}
+
 static void complain_of_file(const char* path, TunerFile file, TunerFault* fault) {
   static const char* const names[] = {"scale (.scl)", "mapping (.kbm)"};
   (void)snprintf(fault->line, sizeof(fault->line), "%s:1: found no text (%s), expected a Scala %s",
-                 path, strerror(errno), names[file]);
+                 path, reason(errno), names[file]);
 }
 
 static void

@@ -78,6 +78,8 @@ static void nobody_is_waited_for(void** state) {
   const ScalePath directory = scale_new_directory();
   const ScalePath pipe = scale_write(&directory, "pipe.scl", "");
   static const char* const others[] = {"/dev/zero", "/dev/tty", "/proc/kmsg", "/"};
+  static const char* const why[] = {"(not a plain file)", "(not a plain file)",
+                                    "(not a plain file)", "", "(Is a directory)"};
   (void)state;
   assert_int_equal(remove(pipe.text), 0);
   assert_int_equal(mkfifo(pipe.text, 0600), 0);
@@ -87,6 +89,7 @@ static void nobody_is_waited_for(void** state) {
     tuner_file_read(i ? others[i - 1] : pipe.text, TUNER_SCALE, false, &content, &fault);
     assert_false(content.is_good);
     assert_true(strlen(fault.line) > 0);
+    assert_non_null(strstr(fault.line, why[i]));
     print_message("%s\n", fault.line);
   }
   scale_remove_directory(&directory);
