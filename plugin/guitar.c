@@ -100,7 +100,7 @@ static const InstrumentKind kind = {
     .play_event = play_event,
     .run = run,
     .report = report,
-    .tuner = {GUITAR_URI, {GUITAR_URI "#scale", GUITAR_URI "#mapping"}},
+    .files = {GUITAR_URI, {GUITAR_URI "#scale", GUITAR_URI "#mapping"}},
 };
 
 static LV2_Handle instantiate(const LV2_Descriptor* descriptor,

@@ -4,9 +4,9 @@
 #include "core/play/channels.h"
 #include "plugin/denormals.h"
 #include "plugin/events.h"
+#include "plugin/files.h"
+#include "plugin/files_state.h"
 #include "plugin/outputs.h"
-#include "plugin/tuner.h"
-#include "plugin/tuner_state.h"
 
 #include <lv2/core/lv2_util.h>
 #include <lv2/log/log.h>
@@ -42,7 +42,7 @@ typedef struct {
   /* State */
   void* player;
   Channels channels; /* What MIDI has said to it */
-  Tuner* tuner;
+  Files* files;
   Controls controls;
   bool is_fresh; /* Whether nothing has been played since activation: there is nothing to glide
                     from */
@@ -136,7 +136,7 @@ static void play_block(Instrument* self, const void* control, uint32_t n_frames)
       done = frame;
       (is_midi ? play_midi : play_own)(self, &event);
     } else {
-      tuner_hear(self->tuner, event.type, event.body, event.size);
+      files_hear(self->files, event.type, event.body, event.size);
     }
   }
   render(self, done, n_frames);
@@ -146,13 +146,13 @@ static void free_instrument(Instrument* self) {
   if (self->player) {
     self->kind->free(self->player);
   }
-  tuner_free(self->tuner);
+  files_free(self->files);
   free(self);
 }
 
 /* New pitches take effect at the start of a block; which, is the worker's affair. */
 static void take_scale(Instrument* self) {
-  const double* const semitones = tuner_take(self->tuner);
+  const double* const semitones = files_take(self->files);
   if (semitones) {
     channels_set_scale(&self->channels, semitones);
   }
@@ -166,7 +166,7 @@ static LV2_Worker_Status work(LV2_Handle handle,
   const Instrument* const self = handle;
   (void)respond;
   (void)respond_handle;
-  return tuner_work(self->tuner, size, data);
+  return files_work(self->files, size, data);
 }
 
 /* There is nothing to respond; but a host might not ask whether there is someone to. */
@@ -184,7 +184,7 @@ static LV2_State_Status save(LV2_Handle handle,
                              const LV2_Feature* const* features) {
   Instrument* const self = handle;
   (void)flags;
-  return tuner_state_save(self->tuner, store, state, features);
+  return files_state_save(self->files, store, state, features);
 }
 
 static LV2_State_Status restore(LV2_Handle handle,
@@ -194,7 +194,7 @@ static LV2_State_Status restore(LV2_Handle handle,
                                 const LV2_Feature* const* features) {
   Instrument* const self = handle;
   (void)flags;
-  return tuner_state_restore(self->tuner, retrieve, state, features);
+  return files_state_restore(self->files, retrieve, state, features);
 }
 
 static bool takes_rate(double rate_hz, const LV2_URID_Map* map, const LV2_Log_Log* log) {
@@ -221,8 +221,8 @@ instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* co
   limiter_init(&self->limiter, rate_hz);
   self->urids = map_urids(map, kind);
   self->player = kind->new (rate_hz);
-  self->tuner = tuner_new(map, features, &kind->tuner);
-  if (!self->player || !self->tuner) {
+  self->files = files_new(map, features, &kind->files);
+  if (!self->player || !self->files) {
     free_instrument(self);
     return NULL;
   }
@@ -243,7 +243,7 @@ void instrument_activate(LV2_Handle handle) {
   Instrument* const self = handle;
   self->kind->reset(self->player);
   channels_reset(&self->channels);
-  channels_set_scale(&self->channels, tuner_pitches(self->tuner));
+  channels_set_scale(&self->channels, files_pitches(self->files));
   limiter_init(&self->limiter, self->rate_hz);
   self->is_fresh = true;
 }
@@ -258,7 +258,7 @@ void instrument_run(LV2_Handle handle, uint32_t n_frames) {
   play_block(self, self->ports[PORT_CONTROL], n_frames);
   self->is_fresh = false;
   write_report(self);
-  tuner_tell(self->tuner, notify, room);
+  files_tell(self->files, notify, room);
   denormals_restore(denormals);
 }
 

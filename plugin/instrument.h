@@ -14,8 +14,8 @@
 
 #include "core/play/performance.h"
 #include "core/voice/voice.h"
+#include "plugin/files_urids.h"
 #include "plugin/ports.h"
-#include "plugin/tuner_urids.h"
 
 #include <lv2/core/lv2.h>
 
@@ -58,7 +58,7 @@ typedef struct {
   void (*run)(void* player, uint32_t n_frames, float* left, float* right);
   VoiceReport (*report)(const void* player);
 
-  TunerNames tuner; /**< What its tuning by files is called */
+  FilesNames files; /**< What its tuning by files is called */
 } InstrumentKind;
 
 /** For instantiate(): NULL if the host offers no urid:map, or `kind` makes no player.  `kind` has

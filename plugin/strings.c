@@ -51,7 +51,7 @@ static const InstrumentKind kind = {
     .perform = perform,
     .run = run,
     .report = report,
-    .tuner = {STRINGS_URI, {STRINGS_URI "#scale", STRINGS_URI "#mapping"}},
+    .files = {STRINGS_URI, {STRINGS_URI "#scale", STRINGS_URI "#mapping"}},
 };
 
 static LV2_Handle instantiate(const LV2_Descriptor* descriptor,

@@ -186,7 +186,7 @@ static void the_audio_thread_takes_no_memory(void** state) {
   check_plugin(guitar_open(RATE, BLOCK));
 }
 
-/* A message to the tuner, and room for its answers. */
+/* A message about the files, and room for its answers. */
 typedef struct {
   LV2_Atom_Sequence head;
   int64_t frame;

@@ -1,7 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "core/analysis/modes.h"
-#include "plugin/tuner_file.h"
+#include "plugin/files_read.h"
 #include "tools/bench/bench_clock.h"
 #include "tools/commands/args.h"
 #include "tools/commands/commands.h"
@@ -82,11 +82,11 @@ typedef struct {
   Args args;
   const char* in;
   const char* out;
-  Kind kind;                         /* Of `in` */
-  const char* preset;                /* NULL: none */
-  const char* plugin;                /* Its URI */
-  const char* tuning[TUNER_N_FILES]; /* NULL: none */
-  const char** sets;                 /* In the order given */
+  Kind kind;                       /* Of `in` */
+  const char* preset;              /* NULL: none */
+  const char* plugin;              /* Its URI */
+  const char* tuning[FILES_COUNT]; /* NULL: none */
+  const char** sets;               /* In the order given */
   size_t n_sets;
   long rate_hz;            /* 0: the usual one */
   long block;              /* [frames] */
@@ -236,10 +236,10 @@ static bool take_option(Render* self, int found) {
   case LIST_CONTROLS:
     return self->lists_controls = true;
   case SCALE:
-    self->tuning[TUNER_SCALE] = value;
+    self->tuning[FILES_SCALE] = value;
     return true;
   case MAPPING:
-    self->tuning[TUNER_MAPPING] = value;
+    self->tuning[FILES_MAPPING] = value;
     return true;
   default:
     return self->lists_presets = true;
@@ -392,10 +392,10 @@ static int load_preset(const Render* self, const Score* score, Host* host) {
 }
 
 /* The plugin plays on without a file that is not as it should be; who asked for it is to know. */
-static bool is_good_file(const Render* self, TunerFile file) {
-  TunerContent content;
-  TunerFault fault;
-  tuner_file_read(self->tuning[file], file, true, &content, &fault);
+static bool is_good_file(const Render* self, FilesKind file) {
+  FilesContent content;
+  FilesFault fault;
+  files_read(self->tuning[file], file, true, &content, &fault);
   scale_free(&content.scale);
   scale_map_free(&content.map);
   return content.is_good || args_fail(&self->args, false, "%s", fault.line);
@@ -403,12 +403,12 @@ static bool is_good_file(const Render* self, TunerFile file) {
 
 static int tune(const Render* self, Host* host) {
   static const char* const names[] = {"scale", "mapping"};
-  for (int f = 0; f < TUNER_N_FILES; ++f) {
+  for (int f = 0; f < FILES_COUNT; ++f) {
     char parameter[256];
     if (!self->tuning[f]) {
       continue;
     }
-    if (!is_good_file(self, (TunerFile)f)) {
+    if (!is_good_file(self, (FilesKind)f)) {
       return ARGS_FAILURE;
     }
     (void)snprintf(parameter, sizeof(parameter), "%s#%s", self->plugin, names[f]);

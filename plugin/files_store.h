@@ -8,10 +8,10 @@
    A file that is missing or broken counts as none, so that what is heard follows from the paths
    and what lies there, and from nothing that was before; its path is kept.
 */
-#ifndef HOOKE_PLUGIN_TUNER_STORE_H
-#define HOOKE_PLUGIN_TUNER_STORE_H
+#ifndef HOOKE_PLUGIN_FILES_STORE_H
+#define HOOKE_PLUGIN_FILES_STORE_H
 
-#include "plugin/tuner_file.h"
+#include "plugin/files_read.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -20,22 +20,22 @@
 
 /** Paths of both; an empty one is no file. */
 typedef struct {
-  char path[TUNER_N_FILES][TUNER_PATH_SIZE];
-} TunerPaths;
+  char path[FILES_COUNT][FILES_PATH_SIZE];
+} FilesPaths;
 
 /** What they make. */
 typedef struct {
   double semitones[SCALE_KEYS]; /**< Of every key above A4; NAN: it has no pitch */
-  TunerPaths paths;
+  FilesPaths paths;
   uint32_t n_wishes; /**< Loads that a player asked for so far */
-} TunerTable;
+} FilesTable;
 
 typedef struct {
   /* Of those who load, one at a time */
   pthread_mutex_t lock;
   Scale scale;
   ScaleMap map;
-  TunerPaths paths;
+  FilesPaths paths;
   uint32_t n_wishes;
   uint32_t written; /**< Index of the table that is written */
 
@@ -45,18 +45,18 @@ typedef struct {
   /* Of the audio thread */
   uint32_t played; /**< Index of the table that is read */
 
-  TunerTable tables[3];
-} TunerStore;
+  FilesTable tables[3];
+} FilesStore;
 
 /** Without files: equal temperament.  @return false if it cannot be had */
-bool tuner_store_init(TunerStore* store);
+bool files_store_init(FilesStore* store);
 
-void tuner_store_clear(TunerStore* store);
+void files_store_clear(FilesStore* store);
 
 /** What is wrong with each file; an empty line: nothing. */
 typedef struct {
-  TunerFault fault[TUNER_N_FILES];
-} TunerFaults;
+  FilesFault fault[FILES_COUNT];
+} FilesFaults;
 
 /**
    Read files, or forget them, and hand the table that results to the audio thread.  A file is kept
@@ -65,25 +65,25 @@ typedef struct {
    Thread: any, several at a time; takes memory, waits and reads files, so never the audio thread
    but where a host has the work done there.
 
-   @param paths     Of less than TUNER_PATH_SIZE bytes, others are cut; empty: no file; NULL: as it
+   @param paths     Of less than FILES_PATH_SIZE bytes, others are cut; empty: no file; NULL: as it
    was, and not read again
    @param is_wish   Whether a player asked for it, and not a session, which may come from anywhere:
    then no word of what stands in the file is told
    @param[out] faults  What is wrong with those that were read
 */
-void tuner_store_load(TunerStore* store,
-                      const char* const paths[TUNER_N_FILES],
+void files_store_load(FilesStore* store,
+                      const char* const paths[FILES_COUNT],
                       bool is_wish,
-                      TunerFaults* faults);
+                      FilesFaults* faults);
 
-/** Copy the paths.  Thread: as for tuner_store_load(). */
-void tuner_store_paths(TunerStore* store, TunerPaths* paths);
+/** Copy the paths.  Thread: as for files_store_load(). */
+void files_store_paths(FilesStore* store, FilesPaths* paths);
 
 /** Take a new table if there is one.  Thread: audio; real-time safe. */
-bool tuner_store_take(TunerStore* store);
+bool files_store_take(FilesStore* store);
 
 /** The table that was taken last; at first that of equal temperament.  Thread: audio; real-time
  * safe. */
-const TunerTable* tuner_store_table(const TunerStore* store);
+const FilesTable* files_store_table(const FilesStore* store);
 
 #endif

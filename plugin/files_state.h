@@ -9,22 +9,22 @@
 
    Thread: any but the audio thread, also while that runs.
 */
-#ifndef HOOKE_PLUGIN_TUNER_STATE_H
-#define HOOKE_PLUGIN_TUNER_STATE_H
+#ifndef HOOKE_PLUGIN_FILES_STATE_H
+#define HOOKE_PLUGIN_FILES_STATE_H
 
-#include "plugin/tuner.h"
+#include "plugin/files.h"
 
 #include <lv2/state/state.h>
 
 /** As LV2_State_Interface has it. */
-LV2_State_Status tuner_state_save(Tuner* tuner,
+LV2_State_Status files_state_save(Files* files,
                                   LV2_State_Store_Function store,
                                   LV2_State_Handle handle,
                                   const LV2_Feature* const* features);
 
 /** The same.  @return LV2_STATE_ERR_BAD_TYPE if something else stands there; it is as if it did not
  */
-LV2_State_Status tuner_state_restore(Tuner* tuner,
+LV2_State_Status files_state_restore(Files* files,
                                      LV2_State_Retrieve_Function retrieve,
                                      LV2_State_Handle handle,
                                      const LV2_Feature* const* features);

@@ -5,33 +5,33 @@
 
    Thread: any but the audio thread.
 */
-#ifndef HOOKE_PLUGIN_TUNER_FILE_H
-#define HOOKE_PLUGIN_TUNER_FILE_H
+#ifndef HOOKE_PLUGIN_FILES_READ_H
+#define HOOKE_PLUGIN_FILES_READ_H
 
 #include "core/scale/scale.h"
 
 #include <stdbool.h>
 
 enum {
-  TUNER_PATH_SIZE = 4096,                  /**< Room for a path and its end [bytes] */
-  TUNER_FAULT_SIZE = TUNER_PATH_SIZE + 256 /**< Room for a line about it [bytes] */
+  FILES_PATH_SIZE = 4096,                  /**< Room for a path and its end [bytes] */
+  FILES_FAULT_SIZE = FILES_PATH_SIZE + 256 /**< Room for a line about it [bytes] */
 };
 
 /** What a file is. */
-typedef enum { TUNER_SCALE, TUNER_MAPPING, TUNER_N_FILES } TunerFile;
+typedef enum { FILES_SCALE, FILES_MAPPING, FILES_COUNT } FilesKind;
 
 /** "PATH:LINE: found WHAT, expected WHAT", printable and without an end of line. */
 typedef struct {
-  char line[TUNER_FAULT_SIZE];
-} TunerFault;
+  char line[FILES_FAULT_SIZE];
+} FilesFault;
 
 /** What a file says. */
 typedef struct {
-  TunerFile file;
+  FilesKind file;
   bool is_good; /**< false: nothing was read */
   Scale scale;  /**< If it is a good scale; the caller's, to scale_free() */
   ScaleMap map; /**< If it is a good mapping; the caller's, to scale_map_free() */
-} TunerContent;
+} FilesContent;
 
 /**
    Read a .scl, .ascl or .kbm file.
@@ -45,7 +45,7 @@ typedef struct {
    be
    @param[out] fault    Written only then
 */
-void tuner_file_read(
-    const char* path, TunerFile asked, bool may_quote, TunerContent* content, TunerFault* fault);
+void files_read(
+    const char* path, FilesKind asked, bool may_quote, FilesContent* content, FilesFault* fault);
 
 #endif
