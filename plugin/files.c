@@ -138,19 +138,27 @@ void files_free(Files* files) {
   }
 }
 
-const double* files_take(Files* files) {
+FilesNews files_take(Files* files) {
   if (!files_store_take(&files->store)) {
-    return NULL;
+    return (FilesNews){false, false};
   }
-  const FilesTable* const table = files_store_table(&files->store);
-  files->is_due[FILES_SCALE] = files->is_due[FILES_MAPPING] = true;
-  files->is_change_due = files->is_change_due || table->n_wishes != files->n_wishes;
-  files->n_wishes = table->n_wishes;
-  return table->semitones;
+  const FilesCounts before = files->counts;
+  files->counts = files_store_table(&files->store)->counts;
+  for (int f = 0; f < FILES_COUNT; ++f) {
+    files->is_due[f] = true;
+  }
+  files->is_change_due = files->is_change_due || files->counts.n_wishes != before.n_wishes;
+  return (FilesNews){.has_pitches = files->counts.n_tunings != before.n_tunings,
+                     .has_body = files->counts.n_bodies != before.n_bodies};
 }
 
 const double* files_pitches(const Files* files) {
   return files_store_table(&files->store)->semitones;
+}
+
+const Body* files_body(const Files* files) {
+  const Body* const body = &files_store_table(&files->store)->body;
+  return body->n_modes > 0 ? body : NULL;
 }
 
 void files_hear(Files* files, LV2_URID type, const uint8_t* body, uint32_t n_bytes) {
@@ -185,7 +193,7 @@ LV2_Worker_Status files_work(Files* files, uint32_t n_bytes, const void* request
   if (wish.file >= FILES_COUNT || wish.path[n_bytes - REQUEST_HEAD - 1] != '\0') {
     return LV2_WORKER_ERR_UNKNOWN;
   }
-  const char* paths[FILES_COUNT] = {NULL, NULL};
+  const char* paths[FILES_COUNT] = {NULL};
   paths[wish.file] = wish.path;
   files_load(files, paths, true);
   return LV2_WORKER_SUCCESS;

@@ -1,6 +1,6 @@
 /**
-   An instrument's tuning by files: it hears what a player's panel says of them, has them read by
-   the host's worker, and tells the panel what holds.
+   The files that a player gives an instrument, two that tune it and its body: it hears what a
+   player's panel says of them, has them read by the host's worker, and tells the panel what holds.
 
    The files are parameters that are set and asked for by messages (patch:Set, patch:Get) at the
    control port, and are told of at the notify port when they were asked for or have changed; what
@@ -41,7 +41,7 @@ typedef struct {
   bool is_wanted[FILES_COUNT]; /**< Whether the request waits for the worker to have room */
   bool is_due[FILES_COUNT];    /**< Whether the panel is to be told of the file */
   bool is_change_due;          /**< Whether the host is to be told that there is more to save */
-  uint32_t n_wishes;           /**< Of the table when it was last looked at */
+  FilesCounts counts;          /**< Of the table when it was last looked at */
   _Alignas(8) uint8_t message[FILES_MESSAGE_SIZE];
 } Files;
 
@@ -52,12 +52,20 @@ files_new(const LV2_URID_Map* map, const LV2_Feature* const* features, const Fil
 /** Free it; NULL is ignored. */
 void files_free(Files* files);
 
-/** The pitches of all keys in semitones above A4 if they are new since the last call, else NULL;
- * they hold until the next call. */
-const double* files_take(Files* files);
+/** What is new since it was last asked. */
+typedef struct {
+  bool has_pitches;
+  bool has_body;
+} FilesNews;
 
-/** Those that were taken last; at first equal temperament's. */
+/** Take what is new; what the two below return holds until the next call. */
+FilesNews files_take(Files* files);
+
+/** The pitches of all keys in semitones above A4; at first equal temperament's. */
 const double* files_pitches(const Files* files);
+
+/** The body; NULL, as at first: none. */
+const Body* files_body(const Files* files);
 
 /** Hear an event of the control port; what is no message about the files is ignored. */
 void files_hear(Files* files, LV2_URID type, const uint8_t* body, uint32_t n_bytes);

@@ -1,5 +1,6 @@
 /**
-   Scala's files, read: what is wrong with one is said in a line for a person.
+   The files that a player gives an instrument, read: Scala's two, and bodies.  What is wrong with
+   one is said in a line for a person.
 
    Plain files only are read, and nobody is waited for.
 
@@ -8,6 +9,7 @@
 #ifndef HOOKE_PLUGIN_FILES_READ_H
 #define HOOKE_PLUGIN_FILES_READ_H
 
+#include "core/bank/body.h"
 #include "core/scale/scale.h"
 
 #include <stdbool.h>
@@ -18,7 +20,7 @@ enum {
 };
 
 /** What a file is. */
-typedef enum { FILES_SCALE, FILES_MAPPING, FILES_COUNT } FilesKind;
+typedef enum { FILES_SCALE, FILES_MAPPING, FILES_BODY, FILES_COUNT } FilesKind;
 
 /** "PATH:LINE: found WHAT, expected WHAT", printable and without an end of line. */
 typedef struct {
@@ -31,13 +33,14 @@ typedef struct {
   bool is_good; /**< false: nothing was read */
   Scale scale;  /**< If it is a good scale; the caller's, to scale_free() */
   ScaleMap map; /**< If it is a good mapping; the caller's, to scale_map_free() */
+  Body body;    /**< If it is a good body; else it has no modes */
 } FilesContent;
 
 /**
-   Read a .scl, .ascl or .kbm file.
+   Read a .scl, .ascl, .kbm or .body file.
 
-   Its ending says what it is.  One of another ending is a mapping if it reads as one, or a scale if
-   it reads as that.
+   Its ending says what it is.  One of another ending is a mapping if it reads as one, or else a
+   scale or a body.
 
    @param asked         What it counts as if neither its ending nor its text says
    @param may_quote     Whether the fault may tell what stands in the file

@@ -121,14 +121,16 @@ LV2_State_Status files_state_restore(Files* files,
   const Paths paths = paths_of(features);
   LV2_State_Status status = LV2_STATE_SUCCESS;
   FilesPaths found;
-  const char* given[FILES_COUNT] = {NULL, NULL};
+  const char* given[FILES_COUNT] = {NULL};
+  bool is_any = false;
   for (int f = 0; f < FILES_COUNT; ++f) {
     if (fetch(&files->urids, f, found.path[f], retrieve, handle, &status)) {
       make_absolute(found.path[f], &paths);
       given[f] = is_of_host(found.path[f]) ? "" : found.path[f];
+      is_any = true;
     }
   }
-  if (given[FILES_SCALE] || given[FILES_MAPPING]) {
+  if (is_any) {
     files_load(files, given, false);
   }
   return status;

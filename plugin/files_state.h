@@ -1,7 +1,7 @@
 /**
-   The files that tune an instrument, as state: each a path under its parameter's name, empty if
-   there is none.  It may come back as an atom:String, for a host may keep the type of what it was
-   given first.
+   The files that a player gives an instrument, as state: each a path under its parameter's name,
+   empty if there is none.  It may come back as an atom:String, for a host may keep the type of what
+   it was given first.
 
    Files are read by restore() itself, for hosts that restore a session pass no worker; what is
    playing meanwhile goes on.  What a state does not say stays as it is, and a path whose file is

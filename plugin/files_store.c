@@ -30,8 +30,9 @@ static void tune(const FilesStore* store, double semitones[SCALE_KEYS]) {
 
 static void write_table(const FilesStore* store, FilesTable* table) {
   tune(store, table->semitones);
+  table->body = store->body;
   table->paths = store->paths;
-  table->n_wishes = store->n_wishes;
+  table->counts = store->counts;
 }
 
 static void hand_over(FilesStore* store) {
@@ -50,12 +51,35 @@ static void keep_path(FilesStore* store, FilesKind file, const char* path) {
 
 static void forget(FilesStore* store, FilesKind file) {
   keep_path(store, file, "");
-  if (file == FILES_SCALE) {
+  switch (file) {
+  case FILES_SCALE:
     scale_free(&store->scale);
     scale_equal(&store->scale);
-  } else {
+    break;
+  case FILES_MAPPING:
     scale_map_free(&store->map);
     scale_map_linear(&store->map);
+    break;
+  case FILES_BODY:
+  case FILES_COUNT:
+    store->body.n_modes = 0;
+    break;
+  }
+  store->counts.n_tunings += file == FILES_BODY ? 0 : 1;
+}
+
+static void take_content(FilesStore* store, const FilesContent* content) {
+  switch (content->file) {
+  case FILES_SCALE:
+    store->scale = content->scale;
+    break;
+  case FILES_MAPPING:
+    store->map = content->map;
+    break;
+  case FILES_BODY:
+  case FILES_COUNT:
+    store->body = content->body;
+    break;
   }
 }
 
@@ -65,11 +89,14 @@ take_file(FilesStore* store, FilesKind asked, const char* path, bool is_wish, Fi
   files_read(path, asked, is_wish, &content, fault);
   forget(store, content.file);
   keep_path(store, content.file, path);
-  if (content.is_good && content.file == FILES_SCALE) {
-    store->scale = content.scale;
-  } else if (content.is_good) {
-    store->map = content.map;
+  if (content.is_good) {
+    take_content(store, &content);
   }
+}
+
+/* All else of a body follows from its modes. */
+static bool is_same_body(const Body* a, const Body* b) {
+  return a->n_modes == b->n_modes && !memcmp(a->modes, b->modes, a->n_modes * sizeof(BodyMode));
 }
 
 bool files_store_init(FilesStore* store) {
@@ -97,6 +124,7 @@ void files_store_load(FilesStore* store,
                       bool is_wish,
                       FilesFaults* faults) {
   (void)pthread_mutex_lock(&store->lock);
+  const Body before = store->body;
   for (int f = 0; f < FILES_COUNT; ++f) {
     faults->fault[f].line[0] = '\0';
     if (paths[f] && !*paths[f]) {
@@ -108,7 +136,8 @@ void files_store_load(FilesStore* store,
       take_file(store, (FilesKind)f, paths[f], is_wish, &faults->fault[f]);
     }
   }
-  store->n_wishes += is_wish ? 1 : 0;
+  store->counts.n_wishes += is_wish ? 1 : 0;
+  store->counts.n_bodies += is_same_body(&before, &store->body) ? 0 : 1;
   hand_over(store);
   (void)pthread_mutex_unlock(&store->lock);
 }

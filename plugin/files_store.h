@@ -1,5 +1,6 @@
 /**
-   The two files that tune an instrument, and the table of pitches that they make.
+   The files that a player gives an instrument, two that tune it and its body, and the table that
+   they make.
 
    Who loads and who plays share three tables: one is written, one is read, and the third, the last
    that was finished, lies between them and changes hands in one exchange.  So the audio thread
@@ -18,16 +19,24 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** Paths of both; an empty one is no file. */
+/** An empty one is no file. */
 typedef struct {
   char path[FILES_COUNT][FILES_PATH_SIZE];
 } FilesPaths;
 
+/** What there was so far. */
+typedef struct {
+  uint32_t n_wishes;  /**< Loads that a player asked for */
+  uint32_t n_tunings; /**< Those of a scale or a mapping, or of none */
+  uint32_t n_bodies;  /**< Bodies, each unlike the one before */
+} FilesCounts;
+
 /** What they make. */
 typedef struct {
   double semitones[SCALE_KEYS]; /**< Of every key above A4; NAN: it has no pitch */
+  Body body;                    /**< Without modes: none */
   FilesPaths paths;
-  uint32_t n_wishes; /**< Loads that a player asked for so far */
+  FilesCounts counts;
 } FilesTable;
 
 typedef struct {
@@ -35,8 +44,9 @@ typedef struct {
   pthread_mutex_t lock;
   Scale scale;
   ScaleMap map;
+  Body body;
   FilesPaths paths;
-  uint32_t n_wishes;
+  FilesCounts counts;
   uint32_t written; /**< Index of the table that is written */
 
   /* Of both */
@@ -48,7 +58,7 @@ typedef struct {
   FilesTable tables[3];
 } FilesStore;
 
-/** Without files: equal temperament.  @return false if it cannot be had */
+/** Without files: equal temperament, and no body.  @return false if it cannot be had */
 bool files_store_init(FilesStore* store);
 
 void files_store_clear(FilesStore* store);
@@ -60,7 +70,7 @@ typedef struct {
 
 /**
    Read files, or forget them, and hand the table that results to the audio thread.  A file is kept
-   as what it is, whichever of the two it was given as.
+   as what it is, whichever it was given as.
 
    Thread: any, several at a time; takes memory, waits and reads files, so never the audio thread
    but where a host has the work done there.
@@ -82,8 +92,7 @@ void files_store_paths(FilesStore* store, FilesPaths* paths);
 /** Take a new table if there is one.  Thread: audio; real-time safe. */
 bool files_store_take(FilesStore* store);
 
-/** The table that was taken last; at first that of equal temperament.  Thread: audio; real-time
- * safe. */
+/** The table that was taken last; at first that of no files.  Thread: audio; real-time safe. */
 const FilesTable* files_store_table(const FilesStore* store);
 
 #endif

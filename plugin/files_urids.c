@@ -12,7 +12,8 @@ static LV2_URID urid(const LV2_URID_Map* map, const char* uri) {
 FilesUrids files_urids(const LV2_URID_Map* map, const FilesNames* names) {
   return (FilesUrids){
       .plugin = urid(map, names->plugin),
-      .files = {urid(map, names->files[FILES_SCALE]), urid(map, names->files[FILES_MAPPING])},
+      .files = {urid(map, names->files[FILES_SCALE]), urid(map, names->files[FILES_MAPPING]),
+                urid(map, names->files[FILES_BODY])},
       .atom_Blank = urid(map, LV2_ATOM__Blank),
       .atom_Object = urid(map, LV2_ATOM__Object),
       .atom_Path = urid(map, LV2_ATOM__Path),

@@ -1,4 +1,4 @@
-/** Names that tuning by files needs, as numbers. */
+/** Names that a player's files need, as numbers. */
 #ifndef HOOKE_PLUGIN_FILES_URIDS_H
 #define HOOKE_PLUGIN_FILES_URIDS_H
 

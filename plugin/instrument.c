@@ -44,7 +44,7 @@ typedef struct {
   Channels channels; /* What MIDI has said to it */
   Files* files;
   Controls controls;
-  bool is_fresh; /* Whether nothing has been played since activation: there is nothing to glide
+  bool is_fresh; /* Whether no frame has been run since activation: there is nothing to glide
                     from */
   bool is_muted;
   Limiter limiter;
@@ -78,10 +78,11 @@ static void set_controls(Instrument* self, const Controls* controls, uint32_t n_
   self->controls = *controls;
 }
 
-/* A port that changed takes the whole block to get there, so that a host's stairs become slopes. */
-static void take_controls(Instrument* self, uint32_t n_frames) {
+/* A port that changed takes the whole block to get there, so that a host's stairs become slopes;
+ * and so does a body that is new. */
+static void take_controls(Instrument* self, bool is_new_body, uint32_t n_frames) {
   const Controls controls = read_controls(self);
-  if (self->is_fresh || !ports_are_same(&controls, &self->controls)) {
+  if (self->is_fresh || is_new_body || !ports_are_same(&controls, &self->controls)) {
     set_controls(self, &controls, n_frames > self->n_shortest ? n_frames : self->n_shortest);
   }
 }
@@ -150,12 +151,17 @@ static void free_instrument(Instrument* self) {
   free(self);
 }
 
-/* New pitches take effect at the start of a block; which, is the worker's affair. */
-static void take_scale(Instrument* self) {
-  const double* const semitones = files_take(self->files);
-  if (semitones) {
-    channels_set_scale(&self->channels, semitones);
+/* What files say takes effect at the start of a block; which, is the worker's affair.  Whether
+ * there is a new body. */
+static bool take_files(Instrument* self) {
+  const FilesNews news = files_take(self->files);
+  if (news.has_pitches) {
+    channels_set_scale(&self->channels, files_pitches(self->files));
   }
+  if (news.has_body) {
+    self->kind->set_body(self->player, files_body(self->files));
+  }
+  return news.has_body;
 }
 
 static LV2_Worker_Status work(LV2_Handle handle,
@@ -253,10 +259,10 @@ void instrument_run(LV2_Handle handle, uint32_t n_frames) {
   const uint64_t denormals = denormals_flush();
   LV2_Atom_Sequence* const notify = self->ports[PORT_NOTIFY];
   const uint32_t room = events_write_none(notify, self->urids.atom_Sequence);
-  take_scale(self);
-  take_controls(self, n_frames);
+  const bool is_new_body = take_files(self);
+  take_controls(self, is_new_body, n_frames);
   play_block(self, self->ports[PORT_CONTROL], n_frames);
-  self->is_fresh = false;
+  self->is_fresh = self->is_fresh && n_frames == 0;
   write_report(self);
   files_tell(self->files, notify, room);
   denormals_restore(denormals);

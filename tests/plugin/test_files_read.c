@@ -15,6 +15,7 @@
 #include <cmocka.h>
 
 #define FIFTHS "fifths\n1\n3/2\n"
+#define BOX "# a box\n\nmode 100 20 0.1 1 0.5\n"
 #define FROM_C "0\n0\n127\n60\n60\n261\n0\n"
 
 static void clear(FilesContent* content) {
@@ -39,6 +40,13 @@ static void the_ending_or_else_the_text_says_what_a_file_is(void** state) {
       {"a.kbm", FIFTHS, FILES_MAPPING, false},
       {"a.txt", FIFTHS, FILES_SCALE, true},
       {"a", FROM_C, FILES_MAPPING, true},
+      {"a.body", BOX, FILES_BODY, true},
+      {"a.BODY", BOX, FILES_BODY, true},
+      {"a.body", FIFTHS, FILES_BODY, false},
+      {"a.scl", BOX, FILES_SCALE, false},
+      {"a.kbm", BOX, FILES_MAPPING, false},
+      {"a.txt", BOX, FILES_BODY, true},
+      {"body", BOX, FILES_BODY, true},
   };
   const ScalePath directory = scale_new_directory();
   (void)state;
@@ -51,13 +59,15 @@ static void the_ending_or_else_the_text_says_what_a_file_is(void** state) {
       assert_int_equal(content.file, files[i].file);
       assert_int_equal(content.is_good, files[i].is_good);
       assert_int_equal(fault.line[0] == '\0', content.is_good);
+      assert_int_equal(content.body.n_modes, content.is_good && content.file == FILES_BODY);
       clear(&content);
     }
   }
   scale_remove_directory(&directory);
 }
 
-static void what_is_neither_counts_as_what_was_asked_for(void** state) {
+static void what_is_nothing_counts_as_what_was_asked_for(void** state) {
+  static const char* const expected[FILES_COUNT] = {"the number of notes", "the size", "mode"};
   const ScalePath directory = scale_new_directory();
   const ScalePath path = scale_write(&directory, "letter", "Dear all,\n");
   (void)state;
@@ -67,7 +77,7 @@ static void what_is_neither_counts_as_what_was_asked_for(void** state) {
     files_read(path.text, (FilesKind)asked, true, &content, &fault);
     assert_int_equal(content.file, asked);
     assert_false(content.is_good);
-    assert_non_null(strstr(fault.line, asked == FILES_SCALE ? "the number of notes" : "the size"));
+    assert_non_null(strstr(fault.line, expected[asked]));
   }
   scale_remove_directory(&directory);
 }
@@ -104,7 +114,7 @@ static void a_line_of_the_log_is_one_line(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_ending_or_else_the_text_says_what_a_file_is),
-      cmocka_unit_test(what_is_neither_counts_as_what_was_asked_for),
+      cmocka_unit_test(what_is_nothing_counts_as_what_was_asked_for),
       cmocka_unit_test(nobody_is_waited_for),
       cmocka_unit_test(a_line_of_the_log_is_one_line),
   };

@@ -131,7 +131,7 @@ static void* do_work(void* data) {
   return NULL;
 }
 
-/* The path of one of the two files. */
+/* The path of one of the files. */
 static LV2_State_Status keep_path(LV2_State_Handle handle,
                                   uint32_t key,
                                   const void* value,
@@ -229,7 +229,8 @@ static void files_load_while_it_runs_and_is_saved(void** state) {
   (void)state;
   static Player player;
   static const LV2_Feature* const none[] = {NULL};
-  static const char* const names[] = {"19-equal.scl", "none.scl", "just-major.scl"};
+  static const char* const names[] = {"19-equal.scl", "none.scl", "just-major.scl",
+                                      "../../presets/bodies/violin.body"};
   char path[FILES_PATH_SIZE];
   char saved[FILES_PATH_SIZE] = "";
   pthread_t threads[2];
@@ -239,7 +240,7 @@ static void files_load_while_it_runs_and_is_saved(void** state) {
   assert_int_equal(pthread_create(&threads[0], NULL, do_work, &player), 0);
   assert_int_equal(pthread_create(&threads[1], NULL, save_all_the_time, &player), 0);
   for (; n_runs < MOST_RUNS && atomic_load(&player.n_loads) < N_LOADS; ++n_runs) {
-    path_of(names[n_runs / 8 % 3], path);
+    path_of(names[n_runs / 8 % 4], path);
     run(&player, n_runs % 8 ? NULL : path, (uint8_t)(40 + n_runs % 40));
   }
   path_of("meantone.scl", path);
