@@ -30,6 +30,7 @@ struct Guitar {
   GuitarString strings[GUITAR_VOICES];
   GuitarString tails[GUITAR_VOICES]; /* What they did before they were plucked again */
   void* memory;                      /* Of all strings; owned */
+  Body body;                         /* For BODIES_FILE, which nothing radiates from yet */
   GuitarMixer mixer;
   uint32_t n_noises; /* That were made, heard or not, since all was still */
 
@@ -178,6 +179,13 @@ void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frame
     }
   }
   follow_all(guitar, n_glide);
+}
+
+void guitar_set_body(Guitar* guitar, const Body* body) {
+  guitar->body.n_modes = 0;
+  if (body) {
+    guitar->body = *body;
+  }
 }
 
 /* What a key without a pitch has is between those of its neighbours that have one. */

@@ -64,6 +64,9 @@ void guitar_reset(Guitar* guitar);
    once).  How and where strings are plucked, and the most masses, hold from the next pluck on. */
 void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frames);
 
+/** What BODIES_FILE is from now on; NULL: no body.  It is copied. */
+void guitar_set_body(Guitar* guitar, const Body* body);
+
 /**
    Give the keys of a channel other pitches.  A string is tuned, open or at the capo, as its key is,
    and every fret has the pitch of the key that it is: between keys, and past those that have no
