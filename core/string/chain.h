@@ -41,11 +41,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** A place where the chain is read: weight[0] x[mass[0]] + weight[1] x[mass[1]]; masses count from
- * 0. */
+/** A place where the chain is read: weight[0] x[mass[0]] + weight[1] x[mass[1]], or the same of u;
+ * masses count from 0. */
 typedef struct {
   uint32_t mass[2];
   float weight[2];
+  bool is_velocity; /**< Whether u is read, how far x has come in the last step */
 } ChainTap;
 
 /** A string; zero is one without masses. */

@@ -49,6 +49,7 @@ typedef enum {
 typedef struct {
   size_t offset[2];
   float weight[2];
+  float lean; /**< CHAIN_FIXED: what a velocity has of its position; else 0 */
 } ChainReader;
 
 /** A string for a loop to step; see Chain. */

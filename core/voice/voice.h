@@ -187,9 +187,6 @@ void voice_hand_over(Voice* from, Voice* to);
 /** Pull it aside and let it go, beside all that it does. */
 void voice_pluck(Voice* voice, Pluck pluck);
 
-/** Push it, beside all that it does: see pluck_push(). */
-void voice_push(Voice* voice, Pluck pluck);
-
 /** Throw a hammer at it. */
 void voice_strike(Voice* voice, Strike strike);
 

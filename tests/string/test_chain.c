@@ -34,10 +34,10 @@ static _Alignas(CHAIN_ALIGNMENT) char memory[CHAINS_MOST_BYTES];
 
 /* At both ends, at a place, and somewhere between two. */
 static void choose_taps(uint32_t n, ChainTap taps[CHAIN_MAX_TAPS]) {
-  taps[0] = (ChainTap){{0, n - 1}, {0.25f, 0.5f}};
-  taps[1] = (ChainTap){{n / 2, n / 2}, {1.0f, 0.0f}};
-  taps[2] = (ChainTap){{n - 1, 0}, {-1.0f, 0.5f}};
-  taps[3] = (ChainTap){{n / 3, n / 2}, {0.5f, -0.5f}};
+  taps[0] = (ChainTap){{0, n - 1}, {0.25f, 0.5f}, false};
+  taps[1] = (ChainTap){{n / 2, n / 2}, {1.0f, 0.0f}, false};
+  taps[2] = (ChainTap){{n - 1, 0}, {-1.0f, 0.5f}, false};
+  taps[3] = (ChainTap){{n / 3, n / 2}, {0.5f, -0.5f}, false};
 }
 
 /* What was read, and where the masses are: of the chain, and of the oracle. */
