@@ -7,7 +7,7 @@ built for another machine, it has a compiler of its own: CC_FOR_BUILD, or what i
 import os
 
 SOURCES = ['core/base/*.c', 'core/bank/*.c', 'core/string/pole.c', 'core/analysis/*.c', 'tools/bodies/*.c'] + [
-    'tools/formats/%s.c' % name for name in ['bytes', 'escape', 'text', 'scene']]
+    'tools/formats/%s.c' % name for name in ['bytes', 'escape', 'text', 'scene', 'scene_body', 'scene_mesh', 'scene_reader']]
 
 # What is the target's own and would be taken for ours.
 OF_TARGET = ['CC', 'AR', 'CFLAGS', 'CPPFLAGS', 'LDFLAGS', 'LINKFLAGS', 'PKG_CONFIG_PATH']

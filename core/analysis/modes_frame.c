@@ -8,6 +8,9 @@
 /* Roundings that tell a β K_ij written in decimals from another number. */
 static const double ROUNDINGS = 32.0 * DBL_EPSILON;
 
+/* Beyond this the pairs that levers couple are too many for any solver. */
+static const uint64_t MOST_LINKS = UINT64_C(1) << 26;
+
 static int compare_links(const void* left, const void* right) {
   const FrameLink* const p = left;
   const FrameLink* const q = right;
@@ -70,6 +73,47 @@ take_links(Frame* frame, const NetworkLinks* links, const uint32_t* row, bool is
   }
 }
 
+/* A place in the matrices for each two masses of a lever. */
+static void couple(Frame* frame, FrameLever lever) {
+  for (uint32_t i = 0; i < lever.n_terms; ++i) {
+    for (uint32_t j = i + 1; j < lever.n_terms; ++j) {
+      const uint32_t a = frame->term[lever.first + i].mass;
+      const uint32_t b = frame->term[lever.first + j].mass;
+      frame->link[frame->n_links++] = (FrameLink){.a = a < b ? a : b, .b = a < b ? b : a};
+    }
+  }
+}
+
+static void take_levers(Frame* frame, const NetworkLevers* levers, const uint32_t* row) {
+  uint32_t n_terms = 0;
+  for (uint32_t l = 0; l < levers->n; ++l) {
+    const NetworkLever from = levers->lever[l];
+    FrameLever lever = {.first = n_terms, .k = from.stiffness};
+    for (uint32_t i = 0; i < from.n_terms; ++i) {
+      const NetworkTerm term = levers->term[from.first + i];
+      const uint32_t mass = row[term.point];
+      if (mass != FRAME_GROUND && term.weight != 0.0) {
+        frame->term[n_terms++] = (FrameTerm){mass, term.weight / frame->root[mass]};
+      }
+    }
+    lever.n_terms = n_terms - lever.first;
+    if (lever.k > 0.0 && lever.n_terms > 0) {
+      frame->lever[frame->n_levers++] = lever;
+      couple(frame, lever);
+    }
+  }
+}
+
+/* How many links there may be, those that levers couple included. */
+static uint64_t count_links(const Network* network) {
+  uint64_t n = (uint64_t)network->springs.n + network->dampers.n;
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    const uint64_t n_terms = network->levers.lever[l].n_terms;
+    n += n_terms * (n_terms > 0 ? n_terms - 1 : 0) / 2;
+  }
+  return n;
+}
+
 static void sum_parallel_links(Frame* frame) {
   qsort(frame->link, frame->n_links, sizeof(FrameLink), compare_links);
   uint32_t n = 0;
@@ -88,6 +132,26 @@ static void sum_parallel_links(Frame* frame) {
 static double stretch(const Frame* frame, FrameLink link, const double* y) {
   const double at_a = y[link.a] / frame->root[link.a];
   return link.b == FRAME_GROUND ? at_a : at_a - y[link.b] / frame->root[link.b];
+}
+
+/* How far a lever's spring is stretched in the state y. */
+static double stretch_lever(const Frame* frame, FrameLever lever, const double* y) {
+  double sum = 0.0;
+  for (uint32_t i = 0; i < lever.n_terms; ++i) {
+    const FrameTerm term = frame->term[lever.first + i];
+    sum += term.weight * y[term.mass];
+  }
+  return sum;
+}
+
+static void fill_lever(const Frame* frame, FrameLever lever, double* matrix) {
+  const FrameTerm* const term = frame->term + lever.first;
+  for (uint32_t i = 0; i < lever.n_terms; ++i) {
+    for (uint32_t j = 0; j < lever.n_terms; ++j) {
+      matrix[term[i].mass + (size_t)term[j].mass * frame->n] +=
+          lever.k * term[i].weight * term[j].weight;
+    }
+  }
 }
 
 /* Add a link of `value` to a matrix. */
@@ -118,6 +182,15 @@ static bool has_numbers(const Frame* frame) {
     if (!is_number(link.k, link.k / most / most) || !is_number(link.z, link.z / most / most) ||
         !is_number(link.k, link.k / least / least) || !is_number(link.z, link.z / least / least)) {
       return false;
+    }
+  }
+  for (uint32_t l = 0; l < frame->n_levers; ++l) {
+    const FrameLever lever = frame->lever[l];
+    for (uint32_t i = 0; i < lever.n_terms; ++i) {
+      const double weight = frame->term[lever.first + i].weight;
+      if (!is_number(lever.k, lever.k * weight * weight)) {
+        return false;
+      }
     }
   }
   return true;
@@ -188,20 +261,23 @@ static bool is_split(const Frame* frame, double beta, double* left, double* size
 }
 
 Status frame_init(Frame* frame, const Network* network) {
-  const size_t n_links = (size_t)network->springs.n + network->dampers.n;
+  const uint64_t n_links = count_links(network);
   uint32_t* const row = malloc(2 * ((size_t)network->n_points + 1) * sizeof(uint32_t));
   *frame = (Frame){
       .part = malloc((network->n_masses + (size_t)1) * sizeof(uint32_t)),
       .part_root = malloc((network->n_masses + (size_t)1) * sizeof(double)),
       .root = malloc((network->n_masses + (size_t)1) * sizeof(double)),
-      .link = malloc((n_links + 1) * sizeof(FrameLink)),
+      .link = n_links < MOST_LINKS ? malloc((n_links + 1) * sizeof(FrameLink)) : NULL,
+      .lever = malloc((network->levers.n + (size_t)1) * sizeof(FrameLever)),
+      .term = malloc((network->levers.n_terms + (size_t)1) * sizeof(FrameTerm)),
   };
   Status status = STATUS_NO_MEMORY;
-  if (row && frame->part && frame->part_root && frame->root && frame->link &&
-      n_links <= UINT32_MAX) {
+  if (row && frame->part && frame->part_root && frame->root && frame->link && frame->lever &&
+      frame->term) {
     number_masses(frame, network, row);
     take_links(frame, &network->springs, row, true);
     take_links(frame, &network->dampers, row, false);
+    take_levers(frame, &network->levers, row);
     sum_parallel_links(frame);
     status = has_numbers(frame) ? find_parts(frame, network, row, row + network->n_points)
                                 : STATUS_ILL_SCALED;
@@ -218,6 +294,8 @@ void frame_clear(Frame* frame) {
   free(frame->part_root);
   free(frame->root);
   free(frame->link);
+  free(frame->lever);
+  free(frame->term);
   *frame = (Frame){0};
 }
 
@@ -235,6 +313,15 @@ FrameForms frame_forms(const Frame* frame, const double complex* y) {
     forms.stiffness += link.k * length * length;
     forms.damping += link.z * length * length;
   }
+  for (uint32_t l = 0; l < frame->n_levers; ++l) {
+    const FrameLever lever = frame->lever[l];
+    double complex length = 0.0;
+    for (uint32_t i = 0; i < lever.n_terms; ++i) {
+      const FrameTerm term = frame->term[lever.first + i];
+      length += term.weight * y[term.mass];
+    }
+    forms.stiffness += lever.k * length * length;
+  }
   return forms;
 }
 
@@ -243,6 +330,10 @@ double frame_stiffness(const Frame* frame, const double* y) {
   for (uint32_t l = 0; l < frame->n_links; ++l) {
     const double length = stretch(frame, frame->link[l], y);
     sum += frame->link[l].k * length * length;
+  }
+  for (uint32_t l = 0; l < frame->n_levers; ++l) {
+    const double length = stretch_lever(frame, frame->lever[l], y);
+    sum += frame->lever[l].k * length * length;
   }
   return sum;
 }
@@ -272,6 +363,9 @@ void frame_fill_stiffness(const Frame* frame, double* matrix) {
   for (uint32_t l = 0; l < frame->n_links; ++l) {
     fill_link(frame, frame->link[l], frame->link[l].k, matrix);
   }
+  for (uint32_t l = 0; l < frame->n_levers; ++l) {
+    fill_lever(frame, frame->lever[l], matrix);
+  }
 }
 
 void frame_fill_damping(const Frame* frame, double* matrix) {
@@ -282,11 +376,11 @@ void frame_fill_damping(const Frame* frame, double* matrix) {
 }
 
 uint32_t frame_count_edges(const Frame* frame) {
-  uint32_t n_edges = 0;
+  uint32_t n_edges = frame->n_levers;
   for (uint32_t l = 0; l < frame->n_links; ++l) {
     n_edges += frame->link[l].k > 0.0 ? 1 : 0;
   }
-  return n_edges;
+  return n_edges > frame->n - frame->n_free ? n_edges : frame->n - frame->n_free;
 }
 
 void frame_fill_edges(const Frame* frame, uint32_t n_edges, double* edges) {
@@ -302,22 +396,37 @@ void frame_fill_edges(const Frame* frame, uint32_t n_edges, double* edges) {
       ++e;
     }
   }
+  for (uint32_t l = 0; l < frame->n_levers; ++l, ++e) {
+    const FrameLever lever = frame->lever[l];
+    for (uint32_t i = 0; i < lever.n_terms; ++i) {
+      const FrameTerm term = frame->term[lever.first + i];
+      edges[e + (size_t)term.mass * n_edges] = sqrt(lever.k) * term.weight;
+    }
+  }
 }
 
 void frame_stretch_edges(const Frame* frame, const double* y, double* stretches) {
+  double* const end = stretches + frame_count_edges(frame);
   for (uint32_t l = 0; l < frame->n_links; ++l) {
     if (frame->link[l].k > 0.0) {
       *stretches++ = sqrt(frame->link[l].k) * stretch(frame, frame->link[l], y);
     }
   }
+  for (uint32_t l = 0; l < frame->n_levers; ++l) {
+    *stretches++ = sqrt(frame->lever[l].k) * stretch_lever(frame, frame->lever[l], y);
+  }
+  while (stretches < end) {
+    *stretches++ = 0.0;
+  }
 }
 
 bool frame_is_proportional(const Frame* frame) {
   double* const space = malloc(2 * ((size_t)frame->n + 1) * sizeof(double));
-  /* Without room to tell, the general solver is right as well. */
+  /* No damper acts as levers do.  Without room to tell, the general solver is right as well. */
   const bool is_proportional =
-      space && (is_split(frame, guess_beta(frame), space, space + frame->n) ||
-                is_split(frame, 0.0, space, space + frame->n));
+      space &&
+      ((frame->n_levers == 0 && is_split(frame, guess_beta(frame), space, space + frame->n)) ||
+       is_split(frame, 0.0, space, space + frame->n));
   free(space);
   return is_proportional;
 }

@@ -27,6 +27,18 @@ typedef struct {
   double z;   /**< Damping [kg/s] */
 } FrameLink;
 
+/** A lever's spring, as far as it is at masses. */
+typedef struct {
+  uint32_t first; /**< Of its terms */
+  uint32_t n_terms;
+  double k; /**< Stiffness [N/m] */
+} FrameLever;
+
+typedef struct {
+  uint32_t mass;
+  double weight; /**< w/√m */
+} FrameTerm;
+
 typedef struct {
   uint32_t n; /**< Masses, numbered as their points come */
   uint32_t n_links;
@@ -35,7 +47,11 @@ typedef struct {
   uint32_t* part;    /**< Of each mass its free part, or FRAME_GROUND, n */
   double* part_root; /**< √m of each free part as a whole, n_free */
   double* root;      /**< √m, n */
-  FrameLink* link;   /**< In order of a, then b */
+  FrameLink* link;   /**< In order of a, then b; of neither stiffness nor damping between masses
+                          that a lever alone couples */
+  uint32_t n_levers;
+  FrameLever* lever; /**< With stiffness */
+  FrameTerm* term;
 } Frame;
 
 /** @return STATUS_OK; or, with nothing to be cleared, STATUS_NO_MEMORY, or STATUS_ILL_SCALED where
@@ -65,10 +81,12 @@ void frame_add_drag(const Frame* frame, const double* y, double* sum);
 void frame_fill_stiffness(const Frame* frame, double* matrix);
 void frame_fill_damping(const Frame* frame, double* matrix);
 
-/** How many links have stiffness: the rows of frame_fill_edges(). */
+/** The rows of frame_fill_edges(): links and levers with stiffness, and as many more as it takes to
+ * have one for each mass and none for each free part. */
 uint32_t frame_count_edges(const Frame* frame);
 
-/** Fill B with BᵀB = K̂, a row √k (e_a/√m_a − e_b/√m_b) a spring; n_edges × n, column-major. */
+/** Fill B with BᵀB = K̂, a row √k (e_a/√m_a − e_b/√m_b) a spring, √k Σ w_i e_i/√m_i a lever, and of
+ * zeros after these; n_edges × n, column-major. */
 void frame_fill_edges(const Frame* frame, uint32_t n_edges, double* edges);
 
 /** The stretches B y, n_edges, without cancellation of what was multiplied before. */

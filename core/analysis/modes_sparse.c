@@ -123,6 +123,20 @@ void sparse_clear(Sparse* sparse) {
   *sparse = (Sparse){0};
 }
 
+static void
+fill_lever(const Sparse* sparse, const Frame* frame, FrameLever lever, double stiffness) {
+  const FrameTerm* const term = frame->term + lever.first;
+  const double value = stiffness * lever.k;
+  for (uint32_t i = 0; i < lever.n_terms; ++i) {
+    const uint32_t p = sparse->order.place[term[i].mass];
+    *diagonal(sparse, term[i].mass) += value * term[i].weight * term[i].weight;
+    for (uint32_t j = i + 1; j < lever.n_terms; ++j) {
+      const uint32_t q = sparse->order.place[term[j].mass];
+      *entry(sparse, p > q ? p : q, p > q ? q : p) += value * term[i].weight * term[j].weight;
+    }
+  }
+}
+
 void sparse_fill(Sparse* sparse, const Frame* frame, double one, double damping, double stiffness) {
   const Order* const order = &sparse->order;
   memset(sparse->value, 0, order->start[order->n] * sizeof(double));
@@ -136,8 +150,11 @@ void sparse_fill(Sparse* sparse, const Frame* frame, double one, double damping,
       const uint32_t q = order->place[link.b];
       const double root_b = frame->root[link.b];
       *diagonal(sparse, link.b) += value / root_b / root_b;
-      *entry(sparse, p > q ? p : q, p > q ? q : p) = -value / root_a / root_b;
+      *entry(sparse, p > q ? p : q, p > q ? q : p) -= value / root_a / root_b;
     }
+  }
+  for (uint32_t l = 0; l < frame->n_levers; ++l) {
+    fill_lever(sparse, frame, frame->lever[l], stiffness);
   }
   for (uint32_t i = 0; i < order->n; ++i) {
     *diagonal(sparse, i) += one;

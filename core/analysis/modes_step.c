@@ -49,6 +49,19 @@ static void bracket_step(const Frame* frame, double* space, double* low, double*
       far_z[link.b] += link.z / root_a / root_b;
     }
   }
+  for (uint32_t l = 0; l < frame->n_levers; ++l) {
+    const FrameLever lever = frame->lever[l];
+    const FrameTerm* const term = frame->term + lever.first;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < lever.n_terms; ++i) {
+      sum += fabs(term[i].weight);
+    }
+    for (uint32_t i = 0; i < lever.n_terms; ++i) {
+      const double weight = fabs(term[i].weight);
+      k[term[i].mass] += lever.k * weight * weight;
+      far_k[term[i].mass] += lever.k * weight * (sum - weight);
+    }
+  }
   *low = *high = HUGE_VAL;
   for (uint32_t i = 0; i < frame->n; ++i) {
     *high = fmin(*high, pole_largest_step_s(sqrt(k[i]), z[i]));

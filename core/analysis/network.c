@@ -91,6 +91,35 @@ add_link(Network* network, NetworkLinks* links, uint32_t from, uint32_t to, doub
   return STATUS_OK;
 }
 
+static Status add_terms(NetworkLevers* levers, uint32_t n_terms, const NetworkTerm* term) {
+  while (n_terms > levers->term_capacity - levers->n_terms) {
+    const uint32_t capacity = more_than(levers->term_capacity);
+    void* array = levers->term;
+    const bool is_grown = capacity && grow(&array, capacity, sizeof(NetworkTerm));
+    levers->term = array;
+    if (!is_grown) {
+      return STATUS_NO_MEMORY;
+    }
+    levers->term_capacity = capacity;
+  }
+  for (uint32_t i = 0; i < n_terms; ++i) {
+    levers->term[levers->n_terms + i] = term[i];
+  }
+  return STATUS_OK;
+}
+
+static bool make_room_for_lever(NetworkLevers* levers) {
+  if (levers->n < levers->capacity) {
+    return true;
+  }
+  const uint32_t capacity = more_than(levers->capacity);
+  void* array = levers->lever;
+  const bool is_grown = capacity && grow(&array, capacity, sizeof(NetworkLever));
+  levers->lever = array;
+  levers->capacity = is_grown ? capacity : levers->capacity;
+  return is_grown;
+}
+
 static bool copy_array(void** copy, const void* array, size_t bytes) {
   *copy = bytes ? malloc(bytes) : NULL;
   if (*copy) {
@@ -113,6 +142,20 @@ static bool copy_links(NetworkLinks* copy, const NetworkLinks* links) {
   return is_copied;
 }
 
+static bool copy_levers(NetworkLevers* copy, const NetworkLevers* levers) {
+  void* lever = NULL;
+  void* term = NULL;
+  const bool is_copied = copy_array(&lever, levers->lever, levers->n * sizeof(NetworkLever));
+  const bool has_terms = copy_array(&term, levers->term, levers->n_terms * sizeof(NetworkTerm));
+  *copy = (NetworkLevers){.lever = lever,
+                          .n = levers->n,
+                          .capacity = levers->n,
+                          .term = term,
+                          .n_terms = levers->n_terms,
+                          .term_capacity = levers->n_terms};
+  return is_copied && has_terms;
+}
+
 static bool copy_points(Network* copy, const Network* network) {
   const size_t n = network->n_points;
   void* flags = NULL;
@@ -132,6 +175,17 @@ static void add_spring_forces(const Network* network) {
     const double pull = spring.value * (x[spring.to] - x[spring.from]);
     sum[spring.from] += pull;
     sum[spring.to] -= pull;
+  }
+}
+
+static void add_lever_forces(const Network* network) {
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    const NetworkLever lever = network->levers.lever[l];
+    const NetworkTerm* const term = network->levers.term + lever.first;
+    const double pull = lever.stiffness * network_stretch(network, l, network->x);
+    for (uint32_t i = 0; i < lever.n_terms; ++i) {
+      network->sum[term[i].point] -= term[i].weight * pull;
+    }
   }
 }
 
@@ -170,6 +224,8 @@ void network_free(Network* network) {
     free(network->sum);
     free(network->springs.link);
     free(network->dampers.link);
+    free(network->levers.lever);
+    free(network->levers.term);
     free(network->space);
     free(network);
   }
@@ -184,7 +240,8 @@ Network* network_copy(const Network* network) {
   copy->n_masses = network->n_masses;
   copy->is_checked = network->is_checked;
   if (!copy_points(copy, network) || !copy_links(&copy->springs, &network->springs) ||
-      !copy_links(&copy->dampers, &network->dampers)) {
+      !copy_links(&copy->dampers, &network->dampers) ||
+      !copy_levers(&copy->levers, &network->levers)) {
     network_free(copy);
     return NULL;
   }
@@ -205,6 +262,24 @@ Status network_add_spring(Network* network, uint32_t from, uint32_t to, double s
 
 Status network_add_damper(Network* network, uint32_t from, uint32_t to, double damping) {
   return add_link(network, &network->dampers, from, to, damping);
+}
+
+Status
+network_add_lever(Network* network, double stiffness, uint32_t n_terms, const NetworkTerm* term) {
+  NetworkLevers* const levers = &network->levers;
+  if (!make_room_for_lever(levers) || add_terms(levers, n_terms, term)) {
+    return STATUS_NO_MEMORY;
+  }
+  levers->lever[levers->n++] =
+      (NetworkLever){.first = levers->n_terms, .n_terms = n_terms, .stiffness = stiffness};
+  levers->n_terms += n_terms;
+  network->is_checked = false;
+  return STATUS_OK;
+}
+
+void network_load(Network* network, uint32_t point, double mass_kg) {
+  network->is_checked = false;
+  network->mass_kg[point] += mass_kg;
 }
 
 Status network_add_string(Network* network,
@@ -245,6 +320,9 @@ void network_scale(Network* network, double stiffness_factor, double damping_fac
   for (uint32_t d = 0; d < network->dampers.n; ++d) {
     network->dampers.link[d].value *= damping_factor;
   }
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    network->levers.lever[l].stiffness *= stiffness_factor;
+  }
 }
 
 void network_rest(Network* network) {
@@ -257,6 +335,7 @@ void network_step(Network* network, double step_s) {
   assert(network->is_checked);
   memcpy(network->sum, network->force, network->n_points * sizeof(double));
   add_spring_forces(network);
+  add_lever_forces(network);
   add_damper_forces(network);
   for (uint32_t p = 0; p < network->n_points; ++p) {
     if (!network->is_ground[p]) {
@@ -264,6 +343,15 @@ void network_step(Network* network, double step_s) {
       network->x[p] += step_s * network->v[p];
     }
   }
+}
+
+double network_stretch(const Network* network, uint32_t lever, const double* x) {
+  const NetworkTerm* const term = network->levers.term + network->levers.lever[lever].first;
+  double sum = 0.0;
+  for (uint32_t i = 0; i < network->levers.lever[lever].n_terms; ++i) {
+    sum += term[i].weight * x[term[i].point];
+  }
+  return sum;
 }
 
 double network_energy(const Network* network) {
@@ -277,6 +365,11 @@ double network_scheme_energy(const Network* network, double step_s) {
     const double stretch = network->x[spring.to] - network->x[spring.from];
     const double stretching = network->v[spring.to] - network->v[spring.from];
     energy += 0.5 * spring.value * stretch * (stretch - step_s * stretching);
+  }
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    const double stretch = network_stretch(network, l, network->x);
+    const double stretching = network_stretch(network, l, network->v);
+    energy += 0.5 * network->levers.lever[l].stiffness * stretch * (stretch - step_s * stretching);
   }
   return energy;
 }

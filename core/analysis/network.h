@@ -9,7 +9,8 @@
 
        F_i = external_i + Σ k (x_j − x_i) + Σ Z (v_j − v_i),
 
-   then  v_i ← v_i + h F_i/m_i,  and with the new velocity  x_i ← x_i + h v_i.   [MQ09] (5)
+   and, of a lever, by which a spring is pulled at many points, w_i each:  − w_i k Σ_j w_j x_j.
+   Then  v_i ← v_i + h F_i/m_i,  and with the new velocity  x_i ← x_i + h v_i.   [MQ09] (5)
 
    Life: network_new(), network_add_…(), network_check(), then step; adding more asks for another
    check.  Thread: a network belongs to one thread at a time.  Stepping does not allocate.
@@ -28,6 +29,33 @@ typedef struct {
   uint32_t to;
   double value; /**< Stiffness k [N/m] of a spring, Z [kg/s] of a damper; ≥ 0 */
 } NetworkLink;
+
+/**
+   A spring that levers pull at from any number of points: its energy is  k/2 (Σ w_i x_i)².
+
+   With the weights 1, −2, 1 it is the moment of a bar that is bent, with 1, −1, −1, 1 that of a
+   plate that is twisted, and with the areas of a box's walls the air in it.
+*/
+typedef struct {
+  uint32_t first; /**< Of its terms */
+  uint32_t n_terms;
+  double stiffness; /**< k [N/m]; ≥ 0 */
+} NetworkLever;
+
+typedef struct {
+  uint32_t point;
+  double weight; /**< w */
+} NetworkTerm;
+
+/** In the order in which they were added. */
+typedef struct {
+  NetworkLever* lever;
+  uint32_t n;
+  uint32_t capacity;
+  NetworkTerm* term; /**< Of all levers, one after the other */
+  uint32_t n_terms;
+  uint32_t term_capacity;
+} NetworkLevers;
 
 /** Links in the order in which they were added. */
 typedef struct {
@@ -54,16 +82,17 @@ typedef struct {
   double* sum;     /**< Working space of a step */
   NetworkLinks springs;
   NetworkLinks dampers;
+  NetworkLevers levers;
   double* space; /**< Working space of network_prepare() */
 } Network;
 
 /** What kind of element a fault is in. */
-typedef enum { NETWORK_POINT, NETWORK_SPRING, NETWORK_DAMPER } NetworkElement;
+typedef enum { NETWORK_POINT, NETWORK_SPRING, NETWORK_DAMPER, NETWORK_LEVER } NetworkElement;
 
 /** Where a fault is. */
 typedef struct {
   NetworkElement element;
-  uint32_t index; /**< Of the point, or the spring or damper, counted from 0 as added */
+  uint32_t index; /**< Of the point, spring, damper or lever, counted from 0 as added */
 } NetworkFault;
 
 /** @return An empty network, to be given to network_free(), or NULL: out of memory */
@@ -90,6 +119,17 @@ Status network_add_spring(Network* network, uint32_t from, uint32_t to, double s
 Status network_add_damper(Network* network, uint32_t from, uint32_t to, double damping);
 
 /**
+   Add a lever's spring.
+
+   @param term  n_terms points, each once, and their weights, finite; copied
+*/
+Status
+network_add_lever(Network* network, double stiffness, uint32_t n_terms, const NetworkTerm* term);
+
+/** Make a mass heavier by `mass_kg`, ≥ 0 [kg]; a grounded point stays as it is. */
+void network_load(Network* network, uint32_t point, double mass_kg);
+
+/**
    Add a uniform string: `n_masses` masses in a row, then two grounded points, and n_masses + 1
    springs and as many dampers between neighbours and to the two ends; no damper where damping is 0.
 
@@ -108,14 +148,16 @@ Status network_add_string(Network* network,
 
    @param[out] fault  Where the first fault is; untouched if there is none; NULL if not wanted
    @return STATUS_OK; STATUS_EMPTY; STATUS_BAD_MASS; STATUS_BAD_LINK (a stiffness or damping that is
-   negative or not finite); STATUS_NO_SUCH_POINT; STATUS_SELF_LINK
+   negative or not finite, or a weight that is not finite); STATUS_NO_SUCH_POINT; STATUS_SELF_LINK
+   (also a lever with a point twice)
 */
 Status network_check(Network* network, NetworkFault* fault);
 
 /**
    Number the parts which hang together, and on no grounded point, by springs of more than zero
    stiffness.  Each has a mode of frequency 0: it drifts.  A damper to a grounded point slows it
-   down and does not bring it back.
+   down and does not bring it back.  A lever holds its masses together, and to the ground where
+   their weights do not sum to 0; that what levers alone hold may turn as well is not seen here.
 
    @param is_by_dampers_too  Take dampers of more than zero for springs: what is free then is not
                              slowed down either
@@ -145,10 +187,14 @@ void network_scale(Network* network, double stiffness_factor, double damping_fac
 /** Bring every mass to rest at 0 and take away all external forces. */
 void network_rest(Network* network);
 
-/** Step a checked network once by `step_s` [s], symplectic Euler.  Linear in points and links. */
+/** Step a checked network once by `step_s` [s], symplectic Euler.  Linear in points, links and
+ * terms. */
 void network_step(Network* network, double step_s);
 
-/** The energy ½ vᵀMv + ½ xᵀKx [J], summed link by link. */
+/** How far the spring of a lever is stretched where its points are at `x`, Σ w_i x_i. */
+double network_stretch(const Network* network, uint32_t lever, const double* x);
+
+/** The energy ½ vᵀMv + ½ xᵀKx [J], summed link by link and lever by lever. */
 double network_energy(const Network* network);
 
 /**

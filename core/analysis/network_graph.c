@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The share of its weights by which a lever's sum may miss 0. */
+static const double ROUNDINGS = 1e-12;
+
 static Status check_link(const Network* network, NetworkLink link) {
   if (!(link.value >= 0.0) || !isfinite(link.value)) {
     return STATUS_BAD_LINK;
@@ -20,6 +23,40 @@ static Status check_link(const Network* network, NetworkLink link) {
 static Status check_links(const Network* network, const NetworkLinks* links, uint32_t* index) {
   for (uint32_t l = 0; l < links->n; ++l) {
     const Status status = check_link(network, links->link[l]);
+    if (status) {
+      *index = l;
+      return status;
+    }
+  }
+  return STATUS_OK;
+}
+
+/* `last` tells of each point the last lever that it is in, from 1. */
+static Status check_lever(const Network* network, uint32_t l, double* last) {
+  const NetworkLever lever = network->levers.lever[l];
+  if (!(lever.stiffness >= 0.0) || !isfinite(lever.stiffness)) {
+    return STATUS_BAD_LINK;
+  }
+  for (uint32_t i = 0; i < lever.n_terms; ++i) {
+    const NetworkTerm term = network->levers.term[lever.first + i];
+    if (!isfinite(term.weight)) {
+      return STATUS_BAD_LINK;
+    }
+    if (term.point >= network->n_points) {
+      return STATUS_NO_SUCH_POINT;
+    }
+    if (last[term.point] == l + 1.0) {
+      return STATUS_SELF_LINK;
+    }
+    last[term.point] = l + 1.0;
+  }
+  return STATUS_OK;
+}
+
+static Status check_levers(const Network* network, uint32_t* index) {
+  memset(network->sum, 0, network->n_points * sizeof(double));
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    const Status status = check_lever(network, l, network->sum);
     if (status) {
       *index = l;
       return status;
@@ -74,6 +111,47 @@ mark_held(const Network* network, const NetworkLinks* links, uint32_t* parent, b
   }
 }
 
+/* Whether a term moves, and pulls. */
+static bool is_live(const Network* network, NetworkTerm term) {
+  return term.weight != 0.0 && !network->is_ground[term.point];
+}
+
+/* Join what levers hold together, and mark what they hold to the ground: what cannot all move by
+ * the same. */
+static void join_levered(const Network* network, uint32_t* parent) {
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    const NetworkLever lever = network->levers.lever[l];
+    const NetworkTerm* const term = network->levers.term + lever.first;
+    const NetworkTerm* first = NULL;
+    for (uint32_t i = 0; i < lever.n_terms && lever.stiffness > 0.0; ++i) {
+      if (is_live(network, term[i])) {
+        first = first ? first : &term[i];
+        join(parent, first->point, term[i].point);
+      }
+    }
+  }
+}
+
+static void mark_levered(const Network* network, uint32_t* parent, bool* is_held) {
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    const NetworkLever lever = network->levers.lever[l];
+    const NetworkTerm* const term = network->levers.term + lever.first;
+    double sum = 0.0;
+    double size = 0.0;
+    const NetworkTerm* last = NULL;
+    for (uint32_t i = 0; i < lever.n_terms && lever.stiffness > 0.0; ++i) {
+      if (is_live(network, term[i])) {
+        last = &term[i];
+        sum += term[i].weight;
+        size += fabs(term[i].weight);
+      }
+    }
+    if (last && fabs(sum) > ROUNDINGS * size) {
+      is_held[root_of(parent, last->point)] = true;
+    }
+  }
+}
+
 static void fill_links(const NetworkLinks* links, const uint32_t* row, size_t n, double* matrix) {
   memset(matrix, 0, n * n * sizeof(double));
   for (uint32_t l = 0; l < links->n; ++l) {
@@ -91,6 +169,22 @@ static void fill_links(const NetworkLinks* links, const uint32_t* row, size_t n,
   }
 }
 
+static void fill_levers(const Network* network, const uint32_t* row, size_t n, double* matrix) {
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    const NetworkLever lever = network->levers.lever[l];
+    const NetworkTerm* const term = network->levers.term + lever.first;
+    for (uint32_t i = 0; i < lever.n_terms; ++i) {
+      const size_t at_i = row[term[i].point];
+      for (uint32_t j = 0; j < lever.n_terms && at_i != UINT32_MAX; ++j) {
+        const size_t at_j = row[term[j].point];
+        if (at_j != UINT32_MAX) {
+          matrix[at_i + at_j * n] += lever.stiffness * term[i].weight * term[j].weight;
+        }
+      }
+    }
+  }
+}
+
 Status network_check(Network* network, NetworkFault* fault) {
   NetworkFault found = {NETWORK_POINT, 0};
   Status status = network->n_masses ? STATUS_OK : STATUS_EMPTY;
@@ -104,6 +198,10 @@ Status network_check(Network* network, NetworkFault* fault) {
   if (!status) {
     status = check_links(network, &network->dampers, &found.index);
     found.element = NETWORK_DAMPER;
+  }
+  if (!status) {
+    status = check_levers(network, &found.index);
+    found.element = NETWORK_LEVER;
   }
   if (status && fault) {
     *fault = found;
@@ -125,11 +223,13 @@ Status network_find_free(const Network* network,
       parent[p] = p;
     }
     join_linked(network, &network->springs, parent);
+    join_levered(network, parent);
     if (is_by_dampers_too) {
       join_linked(network, &network->dampers, parent);
       mark_held(network, &network->dampers, parent, is_held);
     }
     mark_held(network, &network->springs, parent, is_held);
+    mark_levered(network, parent, is_held);
     *n_free = 0;
     for (uint32_t p = 0; p < n; ++p) {
       const uint32_t root = root_of(parent, p);
@@ -161,6 +261,7 @@ network_matrices(const Network* network, double* mass_kg, double* stiffness, dou
   }
   if (stiffness) {
     fill_links(&network->springs, row, n, stiffness);
+    fill_levers(network, row, n, stiffness);
   }
   if (damping) {
     fill_links(&network->dampers, row, n, damping);

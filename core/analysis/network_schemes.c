@@ -29,9 +29,21 @@ static void add_links(const NetworkLinks* links, double scale, const double* y, 
   }
 }
 
+static void add_levers(const Network* network, double scale, const double* y, double* sum) {
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    const NetworkLever lever = network->levers.lever[l];
+    const NetworkTerm* const term = network->levers.term + lever.first;
+    const double pull = scale * lever.stiffness * network_stretch(network, l, y);
+    for (uint32_t i = 0; i < lever.n_terms; ++i) {
+      sum[term[i].point] += term[i].weight * pull;
+    }
+  }
+}
+
 static void sum_forces(const Network* network) {
   memcpy(network->sum, network->force, network->n_points * sizeof(double));
   add_links(&network->springs, -1.0, network->x, network->sum);
+  add_levers(network, -1.0, network->x, network->sum);
 }
 
 static void drift(const Network* network, double step_s) {
@@ -61,6 +73,7 @@ static void multiply(const Network* network, double step_s, const double* v, dou
     y[p] = network->is_ground[p] ? 0.0 : network->mass_kg[p] * v[p];
   }
   add_links(&network->springs, step_s * step_s, v, y);
+  add_levers(network, step_s * step_s, v, y);
   add_links(&network->dampers, step_s, v, y);
   for (uint32_t p = 0; p < network->n_points; ++p) {
     y[p] = network->is_ground[p] ? 0.0 : y[p];
@@ -90,6 +103,14 @@ static void invert_diagonal(const Network* network, double step_s, double* inver
     const NetworkLink damper = network->dampers.link[d];
     inverse[damper.from] += step_s * damper.value;
     inverse[damper.to] += step_s * damper.value;
+  }
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    const NetworkLever lever = network->levers.lever[l];
+    const NetworkTerm* const term = network->levers.term + lever.first;
+    for (uint32_t i = 0; i < lever.n_terms; ++i) {
+      const double w = term[i].weight;
+      inverse[term[i].point] += step_s * step_s * lever.stiffness * w * w;
+    }
   }
   for (uint32_t p = 0; p < network->n_points; ++p) {
     inverse[p] = 1.0 / inverse[p];

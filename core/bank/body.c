@@ -47,6 +47,39 @@ static double mean_over_band(const Body* body, double hz) {
   return sum / PLACES;
 }
 
+void body_narrow(BodyMode* mode) {
+  const double both = 0.5 * (mode->radiation[0] + mode->radiation[1]);
+  const double most = BODY_APART * fabs(both);
+  const double apart = clamp(0.5 * (mode->radiation[0] - mode->radiation[1]), -most, most);
+  mode->radiation[0] = both + apart;
+  mode->radiation[1] = both - apart;
+}
+
+/* What a mode gives to a third of an octave: the square of its peak, and its width. */
+static double strength(const BodyMode* mode) {
+  const double sides =
+      mode->radiation[0] * mode->radiation[0] + mode->radiation[1] * mode->radiation[1];
+  return sides * mode->q / (mode->mass_kg * mode->mass_kg);
+}
+
+/* Leave out the one that is heard least. */
+static void drop_one(Body* body) {
+  uint32_t least = 0;
+  for (uint32_t k = 1; k < body->n_modes; ++k) {
+    least = strength(&body->modes[k]) < strength(&body->modes[least]) ? k : least;
+  }
+  --body->n_modes;
+  for (uint32_t k = least; k < body->n_modes; ++k) {
+    body->modes[k] = body->modes[k + 1];
+  }
+}
+
+void body_keep(Body* body, uint32_t n_modes) {
+  while (body->n_modes > n_modes) {
+    drop_one(body);
+  }
+}
+
 void body_level(Body* body) {
   double sum = 0.0;
   int n = 0;

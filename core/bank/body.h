@@ -44,11 +44,22 @@ typedef struct {
   double power[BODY_BANDS];       /**< Mean over each band of (|left/f|² + |right/f|²)/2 */
 } Body;
 
+/** The most that a shipped mode has on one side alone, of what it has on both: so nothing is lost
+ * where both sides are added, and no partial is far louder on one. */
+#define BODY_APART 0.35
+
 /** How a player changes a body. */
 typedef struct {
   double size;    /**< All its frequencies are divided by it, > 0 */
   double damping; /**< All its losses are multiplied by it, > 0 */
 } BodyShape;
+
+/** Bring what is heard of a mode on both sides within BODY_APART; what it has on both stays. */
+void body_narrow(BodyMode* mode);
+
+/** Keep the `n_modes` that are heard most, by what each gives to a third of an octave in power, in
+ * their order; what is heard of them is as loud as it was. */
+void body_keep(Body* body, uint32_t n_modes);
 
 /** Make the gain of all modes together BODY_POWER by a factor of their radiation, and fill in
  * `power`. A body that radiates nothing is left as it is, with no power. */

@@ -278,12 +278,14 @@ static BodyMode draw_mode(const Crowd* crowd, double hz, double share, Draw* dra
   const double both = draw_normal(draw);
   const double apart = 0.5 * draw_normal(draw);
   const double radiation = at_share(crowd->radiation, share) * sqrt(0.8) / strings;
-  return (BodyMode){
+  BodyMode mode = {
       .f0_hz = hz,
       .q = at_share(crowd->q, share),
       .mass_kg = at_share(crowd->mass, share) / (strings * strings),
       .radiation = {radiation * (both + apart), radiation * (both - apart)},
   };
+  body_narrow(&mode);
+  return mode;
 }
 
 static bool add_crowd(Reader* reader, const Crowd* crowd) {
@@ -356,6 +358,10 @@ static bool read_lines(Reader* reader) {
       return false;
     }
   }
+  return true;
+}
+
+static bool finish(Reader* reader) {
   if (reader->body->n_modes == 0) {
     return fail(reader, "the end of the text", "a line 'mode F Q M LEFT RIGHT'");
   }
@@ -365,17 +371,28 @@ static bool read_lines(Reader* reader) {
          fail(reader, "the end of the text", "a mode that is heard, left or right");
 }
 
-Status body_read(const char* text, size_t n_bytes, Body* body, BodyError* error) {
+static bool start(Reader* reader, const char* text, size_t n_bytes) {
   const bool has_mark = n_bytes >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0;
-  const char* const begin = n_bytes > 0 ? text : "";
+  reader->next = n_bytes > 0 ? text : "";
+  reader->end = reader->next + n_bytes;
+  reader->next += has_mark ? 3 : 0;
+  return n_bytes <= BODY_MAX_BYTES || fail(reader, "a longer text", "one of at most 1048576 bytes");
+}
+
+Status body_read(const char* text, size_t n_bytes, Body* body, BodyError* error) {
   Body read = {.n_modes = 0};
-  Reader reader = {
-      .next = begin + (has_mark ? 3 : 0), .end = begin + n_bytes, .body = &read, .error = error};
-  if (n_bytes > BODY_MAX_BYTES) {
-    (void)fail(&reader, "a longer text", "one of at most 1048576 bytes");
+  Reader reader = {.body = &read, .error = error};
+  if (!start(&reader, text, n_bytes) || !read_lines(&reader) || !finish(&reader)) {
     return STATUS_BAD_TEXT;
   }
-  if (!read_lines(&reader)) {
+  *body = read;
+  return STATUS_OK;
+}
+
+Status body_read_modes(const char* text, size_t n_bytes, Body* body, BodyError* error) {
+  Body read = {.n_modes = 0};
+  Reader reader = {.body = &read, .error = error};
+  if (!start(&reader, text, n_bytes) || !read_lines(&reader)) {
     return STATUS_BAD_TEXT;
   }
   *body = read;

@@ -19,7 +19,7 @@
 
        M_k = M/b²,   l_k = R (c + d/2)/b √(4/5),   r_k = R (c − d/2)/b √(4/5),
 
-   with b kept from 0 by LEAST_SHARE; low modes are so heard alike on both sides to 0.6.
+   with b kept from 0 by LEAST_SHARE, and both sides brought near by body_narrow().
 
    Thread: any.
 */
@@ -56,6 +56,10 @@ typedef struct {
    where none is heard.  Takes no memory, and time in proportion to the text and the modes
 */
 Status body_read(const char* text, size_t n_bytes, Body* body, BodyError* error);
+
+/** The same, but for what body_level() and body_sort() do: the modes as they come and as loud as
+ * they say, and no power.  There need be none. */
+Status body_read_modes(const char* text, size_t n_bytes, Body* body, BodyError* error);
 
 /** Put the modes of a body in order, the lowest first. */
 void body_sort(Body* body);

@@ -18,7 +18,7 @@ static const double SOFT_GAIN = 0.6;
 
 /* How hard a knock is beside the pluck's amplitude, and how long with the softest and the hardest
  * of what plays [s]. */
-static const double KNOCK = 0.3;
+static const double KNOCK = 2.0;
 static const double SOFT_KNOCK_S = 0.006;
 static const double HARD_KNOCK_S = 0.0015;
 
@@ -114,6 +114,7 @@ void harp_reset(Harp* harp) {
   harp->is_followed = false;
   harp_channels_reset(harp->channels);
   harp_bridge_init(&harp->bridge, harp->rate_hz);
+  harp_bridge_move(harp);
   harp->reading.n_taps = 0;
   harp->n_notes = 0;
   memset(harp->noises, 0, sizeof(harp->noises));

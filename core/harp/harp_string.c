@@ -51,7 +51,8 @@ static BridgeHold hold_of(const HarpString* string, double f0_hz) {
   const double resonance = string->patch->resonance;
   const double mass = bridge_mass(440.0 * exp2(((double)string->key - 69.0) / 12.0));
   const double lever = resonance * resonance * string->lift;
-  const bool is_held = resonance > 0.0 && !string->voice.bridge->is_leaving;
+  const Bridge* const bridge = string->voice.bridge; /* What follows a string has none. */
+  const bool is_held = resonance > 0.0 && bridge && !bridge->is_leaving;
   return is_held ? (BridgeHold){mass, lever * sqrt(fmin(1.0, bridge_mass(f0_hz) / mass))}
                  : (BridgeHold){0};
 }

@@ -42,6 +42,12 @@
 
    that is a1 + g1 (1 − 1/z) = ε − z + 2 − 1/z, which gives a1 and g1 for the z that is wanted.
 
+   Wolves.  Where a mode of the body is at the string's pitch and the two exchange their motion
+   faster than the mode loses it, there is no string at that pitch: they are two poles to both sides
+   of it, and no a1 and g1 bring one back.  So a string near a mode has as short a lever as leaves
+   it the pole: at most an ε' that is a quarter of D_1', and an ε that is a tenth of a1.  In
+   between, it dies sooner.
+
    Thread: any.  All of this room is real-time safe and allocates nothing; what sums over modes
    takes a time that grows with the masses.
 */
@@ -129,6 +135,8 @@ typedef struct {
    it takes more, the pitch is still exact, and the string dies sooner than was asked.
 
    @param n_masses       Those that the string will have, ≥ 1
+   @param[in,out] hold   How it is to be tied; with a shorter lever where a mode of the body at its
+   pitch would else make a wolf of it
    @param[in,out] shift  What it was the last time, for that saves time where it moves little; what
    it is now
    @return `target` as it was where `hold` is none, or the target cannot be had
@@ -136,7 +144,7 @@ typedef struct {
 TuningTarget bridge_correct(const Bridge* bridge,
                             TuningTarget target,
                             uint32_t n_masses,
-                            BridgeHold hold,
+                            BridgeHold* hold,
                             BridgeShift* shift);
 
 /**

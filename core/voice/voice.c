@@ -103,6 +103,7 @@ static bool retune(Voice* voice, const TuningTarget* target, bool is_tied, uint3
 static bool
 retune_tied(Voice* voice, const TuningTarget* target, BridgeHold hold, uint32_t n_glide) {
   Tie* const tie = &voice->tie;
+  BridgeHold kept = hold;
   uint32_t n_masses = 0;
   tie_take_masses(tie, voice->bridge, &voice->chain);
   if (!tie_is_wanted(hold) && !tie_is_on(tie)) {
@@ -110,13 +111,14 @@ retune_tied(Voice* voice, const TuningTarget* target, BridgeHold hold, uint32_t 
   }
   do {
     n_masses = voice->chain.n_masses;
-    const TuningTarget own = bridge_correct(voice->bridge, *target, n_masses, hold, &tie->shift);
+    kept = hold;
+    const TuningTarget own = bridge_correct(voice->bridge, *target, n_masses, &kept, &tie->shift);
     if (!retune(voice, &own, true, n_glide)) {
       return false;
     }
   } while (voice->chain.n_masses < n_masses);
   tie_take_masses(tie, voice->bridge, &voice->chain);
-  tie_glide(tie, voice->bridge, &voice->chain, hold, n_glide);
+  tie_glide(tie, voice->bridge, &voice->chain, kept, n_glide);
   return true;
 }
 

@@ -74,7 +74,8 @@ void fuzz_one(const uint8_t* bytes, size_t n_bytes) {
   const char* const path = fuzz_file(bytes, n_bytes);
   Scene* const scene = scene_new(path, SCENE_FOR_MODES, error, SCENE_ERROR_SIZE);
   if (scene && scene->network->n_masses <= MOST_MASSES &&
-      scene->network->springs.n + scene->network->dampers.n <= MOST_LINKS) {
+      scene->network->springs.n + scene->network->dampers.n + scene->network->levers.n_terms <=
+          MOST_LINKS) {
     (void)solve(scene, 0);
     (void)solve(scene, FEW);
     claim_stable(scene->network);

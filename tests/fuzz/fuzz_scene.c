@@ -14,7 +14,9 @@ static void claim_scene(const Scene* scene, ScenePurpose purpose) {
   const uint32_t n_points = scene->network->n_points;
   FUZZ_CLAIM(scene->rate_hz > 0.0 && isfinite(scene->rate_hz));
   FUZZ_CLAIM(isfinite(scene->end_s) && scene->end_s >= 0.0);
-  FUZZ_CLAIM(purpose == SCENE_FOR_MODES || (scene->end_s > 0.0 && scene->n_pickups > 0));
+  FUZZ_CLAIM(purpose != SCENE_FOR_SOUND || (scene->end_s > 0.0 && scene->n_pickups > 0));
+  FUZZ_CLAIM(purpose != SCENE_FOR_BODY ||
+             (scene->n_bridge > 0 && scene->n_radiators > 0 && scene->n_losses > 0));
   for (size_t i = 0; i < scene->n_pickups; ++i) {
     FUZZ_CLAIM(scene->pickups[i].point < n_points && isfinite(scene->pickups[i].gain));
   }
@@ -33,7 +35,8 @@ static void play(Scene* scene) {
   if (player) {
     const Network* const network = scene->network;
     const uint64_t length = scene_player_length(player);
-    const double size = (double)network->n_points + network->springs.n + network->dampers.n;
+    const double size = (double)network->n_points + network->springs.n + network->dampers.n +
+                        network->levers.n_terms;
     FUZZ_CLAIM(length >= 1);
     for (double at = 0.0; at < fmin((double)length, MOST_FRAMES) && at * size <= MOST_WORK;
          at += N_FRAMES) {
@@ -61,9 +64,10 @@ static bool read_for(const char* path, ScenePurpose purpose, const uint8_t* byte
   return is_read;
 }
 
-/* What can be heard has modes. */
+/* What can be heard, or is a body, has modes. */
 void fuzz_one(const uint8_t* bytes, size_t n_bytes) {
   const char* const path = fuzz_file(bytes, n_bytes);
   const bool has_modes = read_for(path, SCENE_FOR_MODES, bytes, n_bytes);
   FUZZ_CLAIM(!read_for(path, SCENE_FOR_SOUND, bytes, n_bytes) || has_modes);
+  FUZZ_CLAIM(!read_for(path, SCENE_FOR_BODY, bytes, n_bytes) || has_modes);
 }

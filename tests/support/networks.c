@@ -79,6 +79,25 @@ Network* networks_random(Random* random, const NetworkKind* kind) {
   return network;
 }
 
+void networks_add_levers(Network* network, Random* random, uint32_t n) {
+  for (; n > 0; --n) {
+    NetworkTerm term[5];
+    uint32_t n_terms = 0;
+    for (uint32_t most = 2 + random_below(random, 4); most > 0; --most) {
+      const uint32_t point = random_below(random, network->n_points);
+      bool is_new = true;
+      for (uint32_t i = 0; i < n_terms; ++i) {
+        is_new &= term[i].point != point;
+      }
+      if (is_new) {
+        term[n_terms++] = (NetworkTerm){point, random_between(random, -2.0, 2.0)};
+      }
+    }
+    assert_int_equal(network_add_lever(network, decades(random, 1.0), n_terms, term), STATUS_OK);
+  }
+  check(network);
+}
+
 Network* networks_mass(double mass_kg, double stiffness, double damping) {
   Network* const network = network_new();
   assert_non_null(network);
@@ -170,6 +189,19 @@ void networks_state_matrix(const Network* network, double* matrix) {
         }
         if (i < n && j < n) {
           block[n + i + j * order] += links->link[l].value / network->mass_kg[end[e]];
+        }
+      }
+    }
+  }
+  for (uint32_t l = 0; l < network->levers.n; ++l) {
+    const NetworkLever lever = network->levers.lever[l];
+    for (uint32_t a = 0; a < lever.n_terms; ++a) {
+      for (uint32_t b = 0; b < lever.n_terms; ++b) {
+        const NetworkTerm from = network->levers.term[lever.first + a];
+        const NetworkTerm to = network->levers.term[lever.first + b];
+        if (row[from.point] < n && row[to.point] < n) {
+          matrix[n + row[from.point] + row[to.point] * order] -=
+              lever.stiffness * from.weight * to.weight / network->mass_kg[from.point];
         }
       }
     }

@@ -23,6 +23,9 @@ typedef struct {
  * more; trees with loops; dampers anywhere.  Checked, at rest. */
 Network* networks_random(Random* random, const NetworkKind* kind);
 
+/** Add `n` levers of two to five points, ground too, of weights from −2 to 2, and check again. */
+void networks_add_levers(Network* network, Random* random, uint32_t n);
+
 /** A mass on a spring and a damper to the ground; the mass is point 0. */
 Network* networks_mass(double mass_kg, double stiffness, double damping);
 
@@ -42,7 +45,7 @@ void networks_set(Network* network, const double* state);
 /** The matrix of one step on (x, v), column by column from unit states; order 2 n_masses. */
 void networks_step_matrix(Network* network, double step_s, double* matrix);
 
-/** A of [MQ09] (43), from the links one by one; order 2 n_masses. */
+/** A of [MQ09] (43), from the links and levers one by one; order 2 n_masses. */
 void networks_state_matrix(const Network* network, double* matrix);
 
 /** All matrices are column-major with ld = order. */

@@ -7,6 +7,7 @@ set -u
 . "$HOOKE_SOURCE/tests/support/claims.sh"
 
 printf 'MThd\0\0\0\006\0\0\0\001\001\340MTrk\0\0\0\014\0\220\074\144\203\140\074\0\0\377\057\0' >note.mid
+printf 'mode 100 20 0.1 1 1\n' >one.body
 printf 'rate 8000\nmass a 1\nground g\nspring a g 1e5\nat 0 displace a 1\npickup a 1\nend 0.1\n' >one.scene
 
 answers_that_get_lost_are_failures() {
@@ -27,6 +28,8 @@ render --help
 modes one.scene
 modes --csv one.scene
 modes --json one.scene
+body one.body
+body --csv one.body
 tune --freq 440 --tau 1 --masses 5 --rate 6000
 tune --freq 440 --tau 1 --masses 5 --rate 6000 --csv
 tune --freq 44 --tau inf one.scene

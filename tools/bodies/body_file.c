@@ -1,6 +1,7 @@
 #include "tools/bodies/body_file.h"
 
 #include "core/bank/body_read.h"
+#include "tools/bodies/reduce.h"
 #include "tools/formats/bytes.h"
 
 #include <stdio.h>
@@ -32,11 +33,35 @@ static bool read_table(const char* path, Body* body, char* error, size_t error_s
   return is_read;
 }
 
-bool body_file_read(const char* path, Body* body, char* error, size_t error_size) {
+static bool
+read_scene(const char* path, Body* body, Reduction* reduction, char* error, size_t error_size) {
+  Scene* const scene = scene_new(path, SCENE_FOR_BODY, error, error_size);
+  if (!scene) {
+    return false;
+  }
+  const Status status = reduce_scene(scene, body, reduction);
+  if (status) {
+    (void)snprintf(error, error_size, "%s: could not find its modes: %s", path,
+                   status_text(status));
+  }
+  scene_free(scene);
+  return !status;
+}
+
+bool body_file_read(
+    const char* path, Body* body, Reduction* reduction, char* error, size_t error_size) {
+  if (reduction) {
+    *reduction = (Reduction){0};
+  }
   if (ends_with(path, ".body")) {
     return read_table(path, body, error, error_size);
   }
-  (void)snprintf(error, error_size, "%s: found no table, expected a name that ends with .body",
+  if (ends_with(path, ".scene")) {
+    return read_scene(path, body, reduction, error, error_size);
+  }
+  (void)snprintf(error, error_size,
+                 "%s: found no body, expected a name that ends with .body or "
+                 ".scene",
                  path);
   return false;
 }

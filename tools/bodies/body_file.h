@@ -8,6 +8,7 @@
 #define HOOKE_TOOLS_BODIES_BODY_FILE_H
 
 #include "core/bank/body.h"
+#include "tools/bodies/reduce.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -20,10 +21,12 @@ enum { BODY_FILE_ERROR_SIZE = 4608 };
 
    @param path        Ends with .body or .scene
    @param[out] body   Untouched on failure
+   @param[out] reduction  Of a scene; left without masses by a table; NULL if not wanted
    @param[out] error  On failure one line, without its end: "PATH:LINE: found …, expected …"
    @param error_size  Room in `error` [bytes]
    @return Whether it could be read
 */
-bool body_file_read(const char* path, Body* body, char* error, size_t error_size);
+bool body_file_read(
+    const char* path, Body* body, Reduction* reduction, char* error, size_t error_size);
 
 #endif

@@ -68,7 +68,7 @@ static bool write_bodies(FILE* out, int n_files, char** files) {
     if (!path) {
       return false;
     }
-    if (!body_file_read(path, &body, error, sizeof(error))) {
+    if (!body_file_read(path, &body, NULL, error, sizeof(error))) {
       fprintf(stderr, "%s\n", error);
       return false;
     }

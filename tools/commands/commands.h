@@ -26,6 +26,14 @@ int modes_main(int argc, char** argv);
 extern const char modes_help[];
 
 /**
+   `hooke body`: the modes of an instrument's body, and a table of them.
+
+   @return ARGS_OK, ARGS_FAILURE or ARGS_USAGE; unless ARGS_OK, no table is left behind.
+*/
+int body_main(int argc, char** argv);
+extern const char body_help[];
+
+/**
    `hooke tune`: from the pitch and the decay that are wanted to masses, springs and dampers.
 
    @return ARGS_OK; ARGS_UNSTABLE where the string has more masses than are stable, with the answer

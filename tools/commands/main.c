@@ -29,6 +29,8 @@ static const Command commands[] = {
     {"render", "play a MIDI file, a score or a scene and write what sounds", render_help,
      render_main},
     {"modes", "say what a scene will sound like, and whether it is stable", modes_help, modes_main},
+    {"body", "reduce an instrument's body to the modes that strings and ears have of it", body_help,
+     body_main},
     {"tune", "find the masses and springs of a pitch and a decay", tune_help, tune_main},
     {"bench", "measure what strings and instruments cost on this machine", bench_help, bench_main},
 };

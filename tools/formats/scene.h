@@ -1,5 +1,6 @@
 /**
-   A scene: a network of masses, springs and dampers, what is done to it, and where it is heard.
+   A scene: a network of masses, springs and dampers, what is done to it, and where it is heard; or
+   what a body is made of, and where strings pull at it.
 
    A scene file is text, one statement a line; `#` begins a comment, and what is declared can be
    used in the lines below.  Units are SI.
@@ -18,12 +19,36 @@
                                                          sound is the sum over all pickups
        end T                                             the sound's length [s]
 
+   What bodies are made of, besides:
+
+       bend A B C K                  a moment spring: its energy is K/2 (x_A − 2 x_B + x_C)² [N/m]
+       twist A B C D K               K/2 (x_A − x_B − x_C + x_D)²
+       plate NAME COLUMNS ROWS size W H density S bending DX DY edge EDGE [SHAPE]
+                                     W × H [m], S [kg/m²], DX and DY [N m], masses NAME.COLUMN.ROW;
+                                     EDGE is free, hinged or clamped; SHAPE is round, or `outline`
+                                     with its widths from the first row to the last, as shares
+       membrane NAME COLUMNS ROWS size W H density S tension T [SHAPE]
+                                     T [N/m]; the rim is held (tools/formats/scene_mesh.h)
+       brace MASS MASS mass KG bending EI
+                                     a bar glued to a plate, along a row, column or diagonal [N m²]
+       air NAME mass KG area S volume V walls PLATE...
+                                     the air of a box of V [m³]: what of it moves in its hole, a
+                                     mass of S [m²], and the plates outwards change its volume
+       bridge MASS WEIGHT            where strings pull, by shares of their force
+       radiate NAME GAIN             a plate, membrane or air that is heard
+       loss HZ Q                     the Q of modes, besides what dampers do: on a straight line
+                                     between two of these where both axes are logarithmic
+       above HZ density ...          modes by chance, where the network ends, as in a table
+                                     (core/bank/body_read.h)
+
    Thread: any, one at a time for each scene.
 */
 #ifndef HOOKE_TOOLS_FORMATS_SCENE_H
 #define HOOKE_TOOLS_FORMATS_SCENE_H
 
 #include "core/analysis/network.h"
+#include "core/bank/body.h"
+#include "tools/formats/scene_part.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -34,25 +59,9 @@ enum { SCENE_ERROR_SIZE = 4608 };
 /** What a scene is read for. */
 typedef enum {
   SCENE_FOR_MODES, /**< Its network and rate; pickups and an end may be missing */
-  SCENE_FOR_SOUND  /**< All of it */
+  SCENE_FOR_SOUND, /**< All of it, but for what only bodies need */
+  SCENE_FOR_BODY   /**< Its network, bridge, losses, and what is heard of it */
 } ScenePurpose;
-
-/** What is done to a mass. */
-typedef enum { SCENE_DISPLACE, SCENE_STRIKE, SCENE_PUSH } SceneAction;
-
-typedef struct {
-  SceneAction action;
-  uint32_t point;    /**< Of the network */
-  uint32_t line;     /**< Of the file, from 1 */
-  double time_s;     /**< ≥ 0 [s] */
-  double value;      /**< [m], [m/s] or [N] */
-  double duration_s; /**< Of a push, > 0 [s] */
-} SceneEvent;
-
-typedef struct {
-  uint32_t point; /**< Of the network */
-  double gain;    /**< [1/m] */
-} ScenePickup;
 
 typedef struct {
   double rate_hz;     /**< > 0 */
@@ -62,6 +71,14 @@ typedef struct {
   size_t n_events;
   ScenePickup* pickups;
   size_t n_pickups;
+  ScenePickup* bridge; /**< Shares of a force */
+  size_t n_bridge;
+  SceneRadiator* radiators;
+  size_t n_radiators;
+  SceneLoss* losses; /**< The lowest first */
+  size_t n_losses;
+  BodyMode* more; /**< Beyond the network's */
+  size_t n_more;
 } Scene;
 
 /**
