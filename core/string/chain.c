@@ -44,9 +44,13 @@ static ChainElasticity elasticity_of(StringCoefs c) {
   return c.k3 != 0.0 ? CHAIN_STRAIGHTENED : c.k2 != 0.0 ? CHAIN_BENDING : CHAIN_FLEXIBLE;
 }
 
+uint32_t chain_taps(uint32_t n_taps) {
+  return n_taps <= 2 ? n_taps : n_taps <= 4 ? 4 : 6;
+}
+
 ChainLoop chain_loop(const Chain* chain, uint32_t n_taps) {
   const bool is_moving = chain->n_gliding > 0;
-  ChainDamping damping = damping_of(chain->now);
+  ChainDamping damping = n_taps > 4 ? CHAIN_BETWEEN : damping_of(chain->now);
   ChainElasticity elasticity = elasticity_of(chain->now);
   if (is_moving) {
     const ChainElasticity to = elasticity_of(chain->goal);

@@ -267,7 +267,7 @@ ChainTap voice_tap(const Voice* voice, const Pickup* pickup, double angle1);
 /**
    Run a voice by itself, awake or not, and add what pickups read of it to `out`.
 
-   @param reading  1, 2 or CHAIN_MAX_TAPS taps
+   @param reading  As many taps as chain_taps() says
    @param out      As many buffers of n_frames
 */
 void voice_run(

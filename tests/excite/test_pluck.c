@@ -22,7 +22,7 @@ static _Alignas(CHAIN_ALIGNMENT) char memory[32 * CHAIN_MAX_MASSES];
 static float sink[1];
 
 static void step(Chain* chain) {
-  static const ChainTap tap = {{0, 0}, {0.0f, 0.0f}};
+  static const ChainTap tap = {{0, 0}, {0.0f, 0.0f}, false};
   float* const out[] = {sink};
   chain_run(chain, 1, &tap, 1, out);
 }
