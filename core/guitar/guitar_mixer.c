@@ -93,8 +93,8 @@ static void run_string(GuitarMixer* mixer,
   if (is_heard) {
     memset(mixer->own, 0, n_frames * sizeof(float));
   }
-  guitar_string_run(string, &mixer->now, n_frames, mixer->own);
-  guitar_string_run(tail, &mixer->now, n_frames, mixer->own);
+  guitar_string_run(string, &mixer->now, n_frames, mixer->own, NULL);
+  guitar_string_run(tail, &mixer->now, n_frames, mixer->own, NULL);
   if (is_heard && !finite_all(mixer->own, n_frames)) {
     voice_mend(&string->voice);
     voice_mend(&tail->voice);

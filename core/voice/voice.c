@@ -428,10 +428,6 @@ void voice_pluck(Voice* voice, Pluck pluck) {
   take_pluck(voice, pluck_pull(&voice->chain, pluck));
 }
 
-void voice_push(Voice* voice, Pluck pluck) {
-  take_pluck(voice, pluck_push(&voice->chain, pluck));
-}
-
 void voice_strike(Voice* voice, Strike strike) {
   hammer_throw(&voice->hammer, &voice->chain, strike, angle1_of(voice), voice->rate_hz);
   put_off(voice);
