@@ -122,6 +122,7 @@ static void a_preset_of_ports_keeps_the_scale(void** state) {
   Host* const host = strings_open(RATE, BLOCK);
   scale_use(host, SCALE, MAPPING);
   assert_true(host_preset(host, "Concert Harp"));
+  strings_set(host, "body", BODIES_NONE);
   strings_set(host, "damping", 0.5);
   strings_set(host, "tracking", 0.5);
   strings_set(host, "tuning", 440.0);

@@ -230,7 +230,7 @@ static void files_load_while_it_runs_and_is_saved(void** state) {
   static Player player;
   static const LV2_Feature* const none[] = {NULL};
   static const char* const names[] = {"19-equal.scl", "none.scl", "just-major.scl",
-                                      "../../presets/bodies/violin.body"};
+                                      "../fuzz/seeds/body/guitar.body"};
   char path[FILES_PATH_SIZE];
   char saved[FILES_PATH_SIZE] = "";
   pthread_t threads[2];

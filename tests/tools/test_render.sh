@@ -285,16 +285,16 @@ files_tune_both_instruments() {
 
 # Whatever a preset says; --set has the last word.
 the_body_of_a_file_is_heard() {
-    body="$HOOKE_SOURCE/presets/bodies/violin.body"
+    printf 'mode 260 30 0.1 1 0.8\nabove 400 density 0.02 q 30 mass 0.1 radiation 1 seed 1 to 4000\n' >box.body
     render note.mid out/none.wav || return
-    render --body "$body" note.mid out/body.wav || return
-    render --body "$body" --preset 'Concert Harp' --set body_mix=1 note.mid out/preset.wav || return
+    render --body box.body note.mid out/body.wav || return
+    render --body box.body --preset 'Concert Harp' --set body_mix=1 note.mid out/preset.wav || return
     render --preset 'Concert Harp' --set body_mix=1 --set body=File note.mid out/no_file.wav || return
-    render --body "$body" --set body=None note.mid out/set.wav || return
+    render --body box.body --set body=None note.mid out/set.wav || return
     ! cmp -s out/none.wav out/body.wav || fail "no body is heard"
     ! cmp -s out/preset.wav out/no_file.wav || fail "no body is heard with a preset"
     cmp out/none.wav out/set.wav || fail "--set has not the last word"
-    render --plugin urn:hooke:guitar --body "$body" note.mid out/guitar.wav || return
+    render --plugin urn:hooke:guitar --body box.body note.mid out/guitar.wav || return
 }
 
 broken_bodies_are_refused() {
