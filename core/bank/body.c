@@ -15,8 +15,9 @@ static const double HIGH_HZ = 5000.0;
 
 static const BodyShape AS_IT_IS = {1.0, 1.0};
 
-double body_gain_square(const Body* body, BodyShape shape, double hz) {
-  double complex heard[2] = {0.0, 0.0};
+void body_gain(const Body* body, BodyShape shape, double hz, double complex gain[2]) {
+  gain[0] = 0.0;
+  gain[1] = 0.0;
   for (uint32_t k = 0; k < body->n_modes; ++k) {
     const BodyMode* const mode = &body->modes[k];
     const double ratio = mode->f0_hz / (hz * shape.size);
@@ -24,15 +25,19 @@ double body_gain_square(const Body* body, BodyShape shape, double hz) {
     const double complex d = complex_of(1.0 - ratio * ratio, -ratio * shape.damping / mode->q);
     const double complex moved =
         conj(d) / (mode->mass_kg * (creal(d) * creal(d) + cimag(d) * cimag(d)));
-    heard[0] += mode->radiation[0] * moved;
-    heard[1] += mode->radiation[1] * moved;
+    gain[0] += mode->radiation[0] * moved;
+    gain[1] += mode->radiation[1] * moved;
   }
-  double square = 0.0;
-  for (int side = 0; side < 2; ++side) {
-    square +=
-        0.5 * (creal(heard[side]) * creal(heard[side]) + cimag(heard[side]) * cimag(heard[side]));
-  }
-  return square;
+}
+
+static double square_of(double complex z) {
+  return creal(z) * creal(z) + cimag(z) * cimag(z);
+}
+
+double body_gain_square(const Body* body, BodyShape shape, double hz) {
+  double complex gain[2];
+  body_gain(body, shape, hz, gain);
+  return 0.5 * (square_of(gain[0]) + square_of(gain[1]));
 }
 
 static double band_hz(int band) {

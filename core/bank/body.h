@@ -17,6 +17,7 @@
 
 #include "core/bank/bank.h"
 
+#include <complex.h>
 #include <stdint.h>
 
 enum {
@@ -64,6 +65,9 @@ void body_keep(Body* body, uint32_t n_modes);
 /** Make the gain of all modes together BODY_POWER by a factor of their radiation, and fill in
  * `power`. A body that radiates nothing is left as it is, with no power. */
 void body_level(Body* body);
+
+/** left/f and right/f at one frequency [Hz], of what goes as exp(+2πi hz t).  Real-time safe. */
+void body_gain(const Body* body, BodyShape shape, double hz, double complex gain[2]);
 
 /** (|left/f|² + |right/f|²)/2 at one frequency [Hz].  Real-time safe. */
 double body_gain_square(const Body* body, BodyShape shape, double hz);

@@ -1,9 +1,12 @@
 #include "core/harp/harp_balance.h"
 
+#include "core/base/complex_of.h"
 #include "core/base/maths.h"
 #include "core/excite/spectrum.h"
+#include "core/harp/harp_stereo.h"
 #include "core/string/pickup.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -52,10 +55,11 @@ typedef struct {
   PickupType pickup_type;
   double weights[2];
   double rate_hz;
-  double both;      /* What both sides have of the square of what is read */
+  double spread;
+  double dry;       /* Gain of what is read */
   const Body* body; /* NULL: none */
   BodyShape shape;
-  double pull;               /* Its weight squared where it is pulled at, both sides together */
+  double wet;                /* Gain of what it is pulled by, with the weight at the string's end */
   const HarpMember* members; /* NULL: one */
   bool is_held;              /* None of them dies */
 } Heard;
@@ -99,19 +103,42 @@ static double square_of_angle(double a) {
   return a * (1.0 + q * (1.0 / 3.0 + q * (8.0 / 45.0)));
 }
 
-static double square_read(const Heard* heard, const double* sines, double a) {
-  const double read = heard->weights[0] * sines[0] + heard->weights[1] * sines[1];
-  return heard->both * read * read * (heard->pickup_type == PICKUP_VELOCITY ? a : 1.0);
+static double read_of(const Heard* heard, const double* sines) {
+  return heard->weights[0] * sines[0] + heard->weights[1] * sines[1];
 }
 
-/* Of what the body makes of partial k: which of its modes the lowest meet is heard. */
-static double square_radiated(const Heard* heard, uint32_t k, double sine, double hz) {
-  if (!heard->body) {
-    return 0.0;
+/* What the pickup reads of a partial and what its body makes of it, which are in step, or not. */
+static double square_met(const Heard* heard, double read, double sine, double hz) {
+  const double angle = 2.0 * PI * hz / heard->rate_hz;
+  const double half = sin(0.5 * angle);
+  const double late = heard->spread > 0.0 ? 2.0 * PI * hz * HARP_STEREO_S : 0.0;
+  const double aside = heard->spread * sin(late);
+  const double complex rate =
+      heard->pickup_type == PICKUP_VELOCITY ? 2.0 * half * complex_of(half, cos(0.5 * angle)) : 1.0;
+  const double complex dry = heard->dry * read * rate * complex_of(cos(late), -sin(late));
+  double complex gain[2];
+  double square = 0.0;
+  body_gain(heard->body, heard->shape, hz, gain);
+  for (int side = 0; side < 2; ++side) {
+    const double complex both =
+        dry * complex_of(1.0, side ? -aside : aside) + heard->wet * sine * gain[side];
+    square += creal(both) * creal(both) + cimag(both) * cimag(both);
   }
-  const double power = k <= MET_BY_MODES ? body_gain_square(heard->body, heard->shape, hz)
-                                         : body_power(heard->body, heard->shape, hz);
-  return heard->pull * sine * sine * power;
+  return square;
+}
+
+/* Of partial k, on both sides: which of the body's modes the lowest meet is heard. */
+static double
+square_heard(const Heard* heard, uint32_t k, const double* turned, double a, double hz) {
+  const double read = read_of(heard, &turned[TAPPED]);
+  if (heard->body && k <= MET_BY_MODES) {
+    return square_met(heard, read, turned[PULLED], hz);
+  }
+  const double alone = (2.0 + heard->spread * heard->spread) * heard->dry * heard->dry * read *
+                       read * (heard->pickup_type == PICKUP_VELOCITY ? a : 1.0);
+  const double pull = heard->wet * turned[PULLED];
+  return heard->body ? alone + 2.0 * pull * pull * body_power(heard->body, heard->shape, hz)
+                     : alone;
 }
 
 /* And what all members make of a mode that is as loud as `weighed` when it begins. */
@@ -132,8 +159,7 @@ static void add(Power* power, const Heard* heard, uint32_t k, const double* turn
   const double square_hz =
       heard->rate_hz * heard->rate_hz / (4.0 * PI * PI) * square_of_angle(mode.a);
   const double plain = 0.5 * n * spectrum_square(&heard->spectrum, k, mode, &turned[EXCITED]) *
-                       (square_read(heard, &turned[TAPPED], mode.a) +
-                        square_radiated(heard, k, turned[PULLED], sqrt(square_hz)));
+                       square_heard(heard, k, turned, mode.a, sqrt(square_hz));
   const double weighed = plain * k_weight(square_hz);
   power->plain += plain;
   power->begun += weighed;
@@ -212,10 +238,11 @@ set_taps(Heard* heard, Turns* turns, const HarpPatch* patch, const HarpBalance* 
   const double mix = patch->radiates ? patch->body.mix : 0.0;
   const double force =
       (double)pickup_tap_of_type(PICKUP_FORCE, string->n_masses, 0.0, 0.0).weight[0];
-  heard->both = (1.0 - mix) * (2.0 + patch->spread * patch->spread);
+  heard->spread = patch->spread;
+  heard->dry = sqrt(1.0 - mix);
   heard->body = patch->radiates;
   heard->shape = patch->body.shape;
-  heard->pull = 2.0 * mix * force * force;
+  heard->wet = sqrt(mix) * force;
   turns->angle[PULLED] = turns->angle[STRING];
   for (int i = 0; i < 2; ++i) {
     turns->angle[TAPPED + i] = turns->angle[STRING] * (tap.mass[i] + 1.0);

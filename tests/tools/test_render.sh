@@ -205,7 +205,7 @@ broken_commands_are_refused() {
     refuse 2 "no option '--loud'; try hooke help" modes --loud x.scene
     refuse 2 "no option '--loud'; try hooke help" tune --loud
     refuse 2 "no option '--loud'; try hooke help" bench --loud
-    refuse 2 'found no command, expected render, modes, tune or bench; try hooke --help'
+    refuse 2 'found no command, expected render, modes, body, tune or bench; try hooke --help'
     refuse 2 "found 'play', expected a command" play
     refuse 2 "found 'play', expected a command" help play
     refuse 2 'found no input' render
