@@ -46,7 +46,7 @@ typedef struct {
 
 /** The most that a shipped mode has on one side alone, of what it has on both: so nothing is lost
  * where both sides are added, and no partial is far louder on one. */
-#define BODY_APART 0.35
+#define BODY_APART 0.2
 
 /** How a player changes a body. */
 typedef struct {

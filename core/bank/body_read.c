@@ -18,6 +18,9 @@ enum { LONGEST_EXPONENT = 4, LONGEST_QUOTE = 48 };
 /* How near to none a mode by chance is moved where the strings are, of what it is by the mean. */
 static const double LEAST_SHARE = 0.2;
 
+/* Of the mean one: so every crowd comes to an end. */
+static const double LEAST_DISTANCE = 1e-3;
+
 /* What a number may be. */
 typedef struct {
   const char* expected;
@@ -288,24 +291,31 @@ static BodyMode draw_mode(const Crowd* crowd, double hz, double share, Draw* dra
   return mode;
 }
 
+/* Below which frequency there are `n` modes: the density is N (f/F)^p, and so their number is
+ * N F ((f/F)^(p+1) − 1)/(p+1). */
+static double crowd_hz(const Crowd* crowd, double n) {
+  const double octaves = log(crowd->hz.to / crowd->hz.from);
+  const double power = log(crowd->density.to / crowd->density.from) / octaves + 1.0;
+  const double y = n / (crowd->density.from * crowd->hz.from);
+  if (!(power * y > -1.0)) {
+    return HUGE_VAL;
+  }
+  return crowd->hz.from * exp(fabs(power * y) > 1e-9 ? log1p(power * y) / power : y);
+}
+
 static bool add_crowd(Reader* reader, const Crowd* crowd) {
   Draw draw = {.seed = (uint64_t)crowd->seed};
   const double octaves = log(crowd->hz.to / crowd->hz.from);
-  double hz = crowd->hz.from;
   /* The first lies anywhere in a mean distance. */
-  double distance = draw_even(&draw);
-  for (;;) {
+  double n = draw_even(&draw);
+  for (double hz = crowd_hz(crowd, n); hz < crowd->hz.to; hz = crowd_hz(crowd, n)) {
     const double share = log(hz / crowd->hz.from) / octaves;
-    hz += distance / at_share(crowd->density, share);
-    if (!(hz < crowd->hz.to)) {
-      return true;
-    }
-    const double there = log(hz / crowd->hz.from) / octaves;
-    if (!add_mode(reader, draw_mode(crowd, hz, there, &draw))) {
+    if (!add_mode(reader, draw_mode(crowd, hz, share, &draw))) {
       return false;
     }
-    distance = fmax(1e-3, sqrt(-4.0 / PI * log(draw_even(&draw))));
+    n += fmax(LEAST_DISTANCE, sqrt(-4.0 / PI * log(draw_even(&draw))));
   }
+  return true;
 }
 
 static bool take_crowd(Reader* reader) {

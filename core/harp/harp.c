@@ -360,8 +360,19 @@ void harp_breathe(Harp* harp, uint32_t channel, double breath) {
   set_touch(harp, channel, &harp->channels[channel].touch.breath, breath);
 }
 
+/* Whether anything is heard with the channel's gain. */
+static bool is_heard(const Harp* harp, uint32_t channel) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    const HarpString* const string = &harp->strings[i];
+    if (harp_group_is_awake(string) && harp_channels_heard(string) == channel) {
+      return true;
+    }
+  }
+  return harp->noises[channel].is_active;
+}
+
 void harp_set_gain(Harp* harp, uint32_t channel, double gain) {
-  line_to(&harp->channels[channel].gain, gain, harp->n_gesture);
+  line_to(&harp->channels[channel].gain, gain, is_heard(harp, channel) ? harp->n_gesture : 0);
 }
 
 void harp_all_notes_off(Harp* harp, uint32_t channel) {

@@ -110,7 +110,8 @@ void harp_brighten(Harp* harp, uint32_t channel, double brightness);
 /** Share of their strength that bows have, 0 to 1. */
 void harp_breathe(Harp* harp, uint32_t channel, double breath);
 
-/** Gain of all that the channel plays and has played, beside the patch's level, ≥ 0; 1 at first. */
+/** Gain of all that the channel plays and has played, beside the patch's level, ≥ 0; 1 at first.
+ * What sounds gets there in a straight line, the note after silence has it from its first frame. */
 void harp_set_gain(Harp* harp, uint32_t channel, double gain);
 
 /** All keys of a channel up. */
