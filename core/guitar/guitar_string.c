@@ -304,13 +304,17 @@ add(float* const* samples, const GuitarGains* gains, uint32_t from, uint32_t n_f
   }
 }
 
-/* A string that no pickup reads is stepped all the same; the bridge comes last, and never fades. */
+/* A string that no pickup reads is stepped all the same; the bridge comes last, as often as there
+ * is room, and never fades. */
 static Reading reading_of(const GuitarString* string, const GuitarGains* gains, bool is_body) {
   const bool is_none = !gains->is_read[0] && !gains->is_read[1] && !is_body;
   Reading reading = pickups_reading(
       &string->pickups, (const bool[PICKUPS]){gains->is_read[0] || is_none, gains->is_read[1]});
   if (is_body) {
-    reading.at[reading.n_taps++] = at_bridge;
+    const uint32_t n_taps = chain_taps(reading.n_taps + 1);
+    while (reading.n_taps < n_taps) {
+      reading.at[reading.n_taps++] = at_bridge;
+    }
   }
   return reading;
 }

@@ -16,12 +16,6 @@
 static const double SOFT_HARDNESS = -0.2;
 static const double SOFT_GAIN = 0.6;
 
-/* How hard a knock is beside the pluck's amplitude, and how long with the softest and the hardest
- * of what plays [s]. */
-static const double KNOCK = 2.0;
-static const double SOFT_KNOCK_S = 0.006;
-static const double HARD_KNOCK_S = 0.0015;
-
 /* All that has a channel's touch takes it anew. */
 static void feel(Harp* harp, uint32_t channel) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
@@ -198,14 +192,13 @@ static void stop(Harp* harp, HarpString* string) {
   harp_group_sleep(string);
 }
 
-/* The wood is pushed by what plays the strings: a hard thing for a shorter time. */
+/* The wood is pushed by what plays the strings, but for a bow. */
 static void knock(Harp* harp, uint32_t channel, Pluck pluck) {
   const double hardness = clamp(pluck_played(pluck.hardness, pluck.softness), 0.0, 1.0);
-  const double time_s = SOFT_KNOCK_S * pow(HARD_KNOCK_S / SOFT_KNOCK_S, hardness);
   const double gain = harp->level.value * harp->channels[channel].gain.value;
-  const double force = KNOCK * harp->patch.body.knock * gain * pluck.amplitude;
-  if (force > 0.0 && harp->patch.exciter != EXCITER_BOW) {
-    radiator_knock(&harp->radiator, force, (uint32_t)(time_s * harp->rate_hz));
+  if (harp->patch.exciter != EXCITER_BOW) {
+    radiator_play(&harp->radiator, harp->rate_hz, hardness,
+                  harp->patch.body.knock * gain * pluck.amplitude);
   }
 }
 

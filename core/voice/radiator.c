@@ -11,6 +11,12 @@ enum { GRID = 64 };
 /* What none hears of it. */
 static const double LEAST = 1e-9;
 
+/* How hard a knock is beside a pluck's amplitude, and how long with the softest and the hardest of
+ * what plays [s]. */
+static const double KNOCK = 2.0;
+static const double SOFT_KNOCK_S = 0.006;
+static const double HARD_KNOCK_S = 0.0015;
+
 /* The shortest fade to another body [s]: low ones take their time to sound. */
 static const double FADE_S = 0.03;
 
@@ -98,6 +104,13 @@ void radiator_knock(Radiator* radiator, double force, uint32_t n_frames) {
                                                                                          : oldest;
   }
   *oldest = (Knock){.force = force, .turn = 2.0 * PI / (n_frames + 1.0)};
+}
+
+void radiator_play(Radiator* radiator, double rate_hz, double hardness, double amplitude) {
+  const double time_s = SOFT_KNOCK_S * pow(HARD_KNOCK_S / SOFT_KNOCK_S, hardness);
+  if (amplitude > 0.0) {
+    radiator_knock(radiator, KNOCK * amplitude, (uint32_t)fmax(time_s * rate_hz, 1.0));
+  }
 }
 
 /* What is pulled and pushed by; whether it is by anything. */

@@ -82,6 +82,11 @@ bool radiator_is_on(const Radiator* radiator);
 /** Push the wood by `force` for `n_frames` ≥ 1 from the next frame on. */
 void radiator_knock(Radiator* radiator, double force, uint32_t n_frames);
 
+/** The same as what plays the strings does: a hard thing for a shorter time.
+ * @param hardness   Of what plays, 0 to 1
+ * @param amplitude  How hard it knocks, in a pluck's measure, ≥ 0; 0: not at all */
+void radiator_play(Radiator* radiator, double rate_hz, double hardness, double amplitude);
+
 /**
    Hear the body beside the strings.
 
