@@ -4,6 +4,7 @@ Sources are found by where they lie, so that a new one needs no line here:
 
     core/*/*.c             a static library, in the plugin and in everything else
     core/*/*_avx2.c        the part of it for processors with AVX2 and FMA, which is chosen when it runs
+    core/*/*_avx512.c      the same with AVX-512
     core/analysis/*.c      what needs LAPACK: a library for the program and the tests, and no part of the plugin
     presets/bodies/        networks and tables which a program reduces to core/bank/bodies.c, see tools/native.py
     plugin/*.c             the plugin, hooke.lv2/hooke.so, and a static library for the bench and the tests
@@ -55,8 +56,14 @@ WARNINGS = '''
 # Not -ffast-math, which would delete the NaN checks, and no contraction, so that every compiler gives the same bits.
 MATHS = ['-fno-math-errno', '-fno-trapping-math', '-ffp-contract=off']
 
-# For the files that are run only where the processor has them, and whose loops are worth contracting.
-AVX2 = ['-mavx2', '-mfma', '-ffp-contract=fast']
+# For the files that are run only where the processor has them.
+WIDER = {
+    'avx2': ['-mavx2', '-mfma'],
+    'avx512': ['-mavx512f', '-mavx512dq', '-mavx512vl', '-mavx512bw', '-mfma', '-mprefer-vector-width=512'],
+}
+
+# Of those, the ones that are worth contracting; a bank is not, so that it gives the same bits on every processor.
+CONTRACTED = 'core/string'
 
 SANITIZERS = ['-fsanitize=address,undefined,float-cast-overflow', '-fno-sanitize-recover=all',
               '-fno-omit-frame-pointer']
@@ -222,16 +229,28 @@ def refuse_late_options(bld):
             bld.fatal('--%s is for configure: run `./waf configure` with all the options you want' % name)
 
 
+# (name, sources, flags) of all that is for wider vectors than every processor has, and what says that it is there.
+def wider(bld):
+    kinds = WIDER if bld.env.DEST_CPU == 'x86_64' else {}
+    parts = []
+    for kind, flags in kinds.items():
+        strings = bld.path.ant_glob('%s/*_%s.c' % (CONTRACTED, kind))
+        others = bld.path.ant_glob('core/*/*_%s.c' % kind, excl=CONTRACTED + '/*')
+        parts += [(kind + '_contracted', strings, flags + ['-ffp-contract=fast']), (kind, others, flags)]
+    return [part for part in parts if part[1]], ['HOOKE_' + kind.upper() for kind in kinds]
+
+
+# What every processor can run.
+def plain(bld):
+    return bld.path.ant_glob('core/*/*.c', excl=[ANALYSIS] + ['core/*/*_%s.c' % kind for kind in WIDER]) + [native.bodies(bld)]
+
+
 def build_core(bld):
-    for_avx2 = 'core/*/*_avx2.c'
     native.build(bld)
-    sources = bld.path.ant_glob('core/*/*.c', excl=[ANALYSIS, for_avx2]) + [native.bodies(bld)]
-    if bld.env.DEST_CPU == 'x86_64':
-        bld.objects(source=bld.path.ant_glob(for_avx2), target='hooke_avx2', cflags=['-fPIC'] + AVX2,
-                    defines=['HOOKE_AVX2'])
-        library(bld, 'hooke_core', sources, use='M hooke_avx2', defines=['HOOKE_AVX2'])
-    else:
-        library(bld, 'hooke_core', sources, use='M')
+    parts, defines = wider(bld)
+    for name, sources, flags in parts:
+        bld.objects(source=sources, target='hooke_' + name, cflags=['-fPIC'] + flags, defines=defines)
+    library(bld, 'hooke_core', plain(bld), use=' '.join(['M'] + ['hooke_' + part[0] for part in parts]), defines=defines)
     if bld.env.WITH_TOOLS:
         library(bld, 'hooke_analysis', bld.path.ant_glob(ANALYSIS), use='hooke_core LAPACK')
 
@@ -365,7 +384,7 @@ def test(bld):
         bld.fatal('nothing can be tested without the libraries of %s' % bld.env.CHOICES['cross'])
     build_tests(bld, sanitizing.folders(kind))
     if any(name.startswith('fuzz_') for name, _ in test_programs(bld)):
-        fuzzing.build(bld, ANALYSIS, AVX2)
+        fuzzing.build(bld, plain(bld), wider(bld), ANALYSIS)
     bld.add_post_fun(run_tests)
 
 

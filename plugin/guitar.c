@@ -16,6 +16,7 @@ typedef struct {
   Guitar* guitar;
   Guitarist* guitarist;
   Controls controls;
+  bool has_new_body; /* Which the guitar has not been set to yet */
 } Player;
 
 static void free_player(void* data) {
@@ -49,12 +50,20 @@ static void reset(void* data) {
 static void set(void* data, const Controls* controls, uint32_t n_frames) {
   Player* const player = data;
   guitarist_set_how(player->guitarist, guitar_ports_how(controls));
-  if (n_frames == 0 || !guitar_ports_are_same_patch(controls, &player->controls)) {
+  if (n_frames == 0 || player->has_new_body ||
+      !guitar_ports_are_same_patch(controls, &player->controls)) {
     const GuitarPatch patch = guitar_ports_patch(controls);
     guitar_set_patch(player->guitar, &patch, n_frames);
     guitarist_set_patch(player->guitarist, &patch);
   }
   player->controls = *controls;
+  player->has_new_body = false;
+}
+
+static void set_body(void* data, const Body* body) {
+  Player* const player = data;
+  guitar_set_body(player->guitar, body);
+  player->has_new_body = true;
 }
 
 static Performance perform(void* data) {
@@ -96,11 +105,12 @@ static const InstrumentKind kind = {
     .reset = reset,
     .read = guitar_ports_read,
     .set = set,
+    .set_body = set_body,
     .perform = perform,
     .play_event = play_event,
     .run = run,
     .report = report,
-    .tuner = {GUITAR_URI, {GUITAR_URI "#scale", GUITAR_URI "#mapping"}},
+    .files = {GUITAR_URI, {GUITAR_URI "#scale", GUITAR_URI "#mapping", GUITAR_URI "#body"}},
 };
 
 static LV2_Handle instantiate(const LV2_Descriptor* descriptor,

@@ -54,6 +54,10 @@ GuitarPatch guitar_ports_patch(const Controls* controls) {
       .course = (double)v[GUITAR_PORT_COURSE],
       .noise = (double)v[GUITAR_PORT_NOISE],
       .width = (double)v[GUITAR_PORT_WIDTH],
+      .body = {(BodiesChoice)ports_whole(v[GUITAR_PORT_BODY]),
+               (double)v[GUITAR_PORT_BODY_MIX],
+               {(double)v[GUITAR_PORT_BODY_SIZE], (double)v[GUITAR_PORT_BODY_DAMPING]},
+               (double)v[GUITAR_PORT_KNOCK]},
   };
   for (uint32_t i = 0; i < GUITAR_PORT_STRINGS; ++i) {
     patch.open[i] = ports_whole(v[GUITAR_PORT_STRING1 + i]);

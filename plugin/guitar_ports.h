@@ -56,12 +56,17 @@
   X(TENSION, tension, 42, 0.0f, 100.0f, 0.0f)                                                      \
   X(VARIATION, variation, 43, 0.0f, 1.0f, 0.0f)                                                    \
   X(TAKE, take, 44, 1.0f, 999.0f, 1.0f)                                                            \
-  X(NOISE, noise, 45, 0.0f, 1.0f, 0.0f)
+  X(NOISE, noise, 45, 0.0f, 1.0f, 0.0f)                                                            \
+  X(BODY, body, 46, 0.0f, 12.0f, 0.0f)                                                             \
+  X(BODY_MIX, body_mix, 47, 0.0f, 1.0f, 0.7f)                                                      \
+  X(BODY_SIZE, body_size, 48, 0.5f, 2.0f, 1.0f)                                                    \
+  X(BODY_DAMPING, body_damping, 49, 0.25f, 4.0f, 1.0f)                                             \
+  X(KNOCK, knock, 50, 0.0f, 1.0f, 0.0f)
 
 #define STREAM_ENUM(name, symbol, index) GUITAR_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   GUITAR_PORT_##name = (index),
-enum { GUITAR_STREAM_PORTS(STREAM_ENUM) GUITAR_CONTROL_PORTS(CONTROL_ENUM) GUITAR_N_PORTS = 46 };
+enum { GUITAR_STREAM_PORTS(STREAM_ENUM) GUITAR_CONTROL_PORTS(CONTROL_ENUM) GUITAR_N_PORTS = 51 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

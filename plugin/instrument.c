@@ -4,9 +4,9 @@
 #include "core/play/channels.h"
 #include "plugin/denormals.h"
 #include "plugin/events.h"
+#include "plugin/files.h"
+#include "plugin/files_state.h"
 #include "plugin/outputs.h"
-#include "plugin/tuner.h"
-#include "plugin/tuner_state.h"
 
 #include <lv2/core/lv2_util.h>
 #include <lv2/log/log.h>
@@ -42,9 +42,9 @@ typedef struct {
   /* State */
   void* player;
   Channels channels; /* What MIDI has said to it */
-  Tuner* tuner;
+  Files* files;
   Controls controls;
-  bool is_fresh; /* Whether nothing has been played since activation: there is nothing to glide
+  bool is_fresh; /* Whether no frame has been run since activation: there is nothing to glide
                     from */
   bool is_muted;
   Limiter limiter;
@@ -78,10 +78,11 @@ static void set_controls(Instrument* self, const Controls* controls, uint32_t n_
   self->controls = *controls;
 }
 
-/* A port that changed takes the whole block to get there, so that a host's stairs become slopes. */
-static void take_controls(Instrument* self, uint32_t n_frames) {
+/* A port that changed takes the whole block to get there, so that a host's stairs become slopes;
+ * and so does a body that is new. */
+static void take_controls(Instrument* self, bool is_new_body, uint32_t n_frames) {
   const Controls controls = read_controls(self);
-  if (self->is_fresh || !ports_are_same(&controls, &self->controls)) {
+  if (self->is_fresh || is_new_body || !ports_are_same(&controls, &self->controls)) {
     set_controls(self, &controls, n_frames > self->n_shortest ? n_frames : self->n_shortest);
   }
 }
@@ -136,7 +137,7 @@ static void play_block(Instrument* self, const void* control, uint32_t n_frames)
       done = frame;
       (is_midi ? play_midi : play_own)(self, &event);
     } else {
-      tuner_hear(self->tuner, event.type, event.body, event.size);
+      files_hear(self->files, event.type, event.body, event.size);
     }
   }
   render(self, done, n_frames);
@@ -146,16 +147,21 @@ static void free_instrument(Instrument* self) {
   if (self->player) {
     self->kind->free(self->player);
   }
-  tuner_free(self->tuner);
+  files_free(self->files);
   free(self);
 }
 
-/* New pitches take effect at the start of a block; which, is the worker's affair. */
-static void take_scale(Instrument* self) {
-  const double* const semitones = tuner_take(self->tuner);
-  if (semitones) {
-    channels_set_scale(&self->channels, semitones);
+/* What files say takes effect at the start of a block; which, is the worker's affair.  Whether
+ * there is a new body. */
+static bool take_files(Instrument* self) {
+  const FilesNews news = files_take(self->files);
+  if (news.has_pitches) {
+    channels_set_scale(&self->channels, files_pitches(self->files));
   }
+  if (news.has_body) {
+    self->kind->set_body(self->player, files_body(self->files));
+  }
+  return news.has_body;
 }
 
 static LV2_Worker_Status work(LV2_Handle handle,
@@ -166,7 +172,7 @@ static LV2_Worker_Status work(LV2_Handle handle,
   const Instrument* const self = handle;
   (void)respond;
   (void)respond_handle;
-  return tuner_work(self->tuner, size, data);
+  return files_work(self->files, size, data);
 }
 
 /* There is nothing to respond; but a host might not ask whether there is someone to. */
@@ -184,7 +190,7 @@ static LV2_State_Status save(LV2_Handle handle,
                              const LV2_Feature* const* features) {
   Instrument* const self = handle;
   (void)flags;
-  return tuner_state_save(self->tuner, store, state, features);
+  return files_state_save(self->files, store, state, features);
 }
 
 static LV2_State_Status restore(LV2_Handle handle,
@@ -194,7 +200,7 @@ static LV2_State_Status restore(LV2_Handle handle,
                                 const LV2_Feature* const* features) {
   Instrument* const self = handle;
   (void)flags;
-  return tuner_state_restore(self->tuner, retrieve, state, features);
+  return files_state_restore(self->files, retrieve, state, features);
 }
 
 static bool takes_rate(double rate_hz, const LV2_URID_Map* map, const LV2_Log_Log* log) {
@@ -221,8 +227,8 @@ instrument_new(const InstrumentKind* kind, double rate_hz, const LV2_Feature* co
   limiter_init(&self->limiter, rate_hz);
   self->urids = map_urids(map, kind);
   self->player = kind->new (rate_hz);
-  self->tuner = tuner_new(map, features, &kind->tuner);
-  if (!self->player || !self->tuner) {
+  self->files = files_new(map, features, &kind->files);
+  if (!self->player || !self->files) {
     free_instrument(self);
     return NULL;
   }
@@ -243,7 +249,7 @@ void instrument_activate(LV2_Handle handle) {
   Instrument* const self = handle;
   self->kind->reset(self->player);
   channels_reset(&self->channels);
-  channels_set_scale(&self->channels, tuner_pitches(self->tuner));
+  channels_set_scale(&self->channels, files_pitches(self->files));
   limiter_init(&self->limiter, self->rate_hz);
   self->is_fresh = true;
 }
@@ -253,12 +259,12 @@ void instrument_run(LV2_Handle handle, uint32_t n_frames) {
   const uint64_t denormals = denormals_flush();
   LV2_Atom_Sequence* const notify = self->ports[PORT_NOTIFY];
   const uint32_t room = events_write_none(notify, self->urids.atom_Sequence);
-  take_scale(self);
-  take_controls(self, n_frames);
+  const bool is_new_body = take_files(self);
+  take_controls(self, is_new_body, n_frames);
   play_block(self, self->ports[PORT_CONTROL], n_frames);
-  self->is_fresh = false;
+  self->is_fresh = self->is_fresh && n_frames == 0;
   write_report(self);
-  tuner_tell(self->tuner, notify, room);
+  files_tell(self->files, notify, room);
   denormals_restore(denormals);
 }
 

@@ -2,7 +2,8 @@
    What every instrument of the bundle does for its host: ports, events and frames.
 
    An InstrumentKind says what is its own.  Events split the block: the frames until an event are
-   run before it is played.  The ports are read once a block, and so are new pitches of its keys.
+   run before it is played.  The ports are read once a block, and so are new pitches of its keys
+   and a new body.
 
    Presets are the host's: program changes and banks are ignored.
 
@@ -12,10 +13,11 @@
 #ifndef HOOKE_PLUGIN_INSTRUMENT_H
 #define HOOKE_PLUGIN_INSTRUMENT_H
 
+#include "core/bank/body.h"
 #include "core/play/performance.h"
 #include "core/voice/voice.h"
+#include "plugin/files_urids.h"
 #include "plugin/ports.h"
-#include "plugin/tuner_urids.h"
 
 #include <lv2/core/lv2.h>
 
@@ -47,6 +49,9 @@ typedef struct {
   /** Take new values, and get there in `n_frames`, 0: at once. */
   void (*set)(void* player, const Controls* controls, uint32_t n_frames);
 
+  /** What BODIES_FILE is, from the next `set` on; NULL: no body.  It is copied. */
+  void (*set_body)(void* player, const Body* body);
+
   /** How MIDI plays it; asked once. */
   Performance (*perform)(void* player);
 
@@ -58,7 +63,7 @@ typedef struct {
   void (*run)(void* player, uint32_t n_frames, float* left, float* right);
   VoiceReport (*report)(const void* player);
 
-  TunerNames tuner; /**< What its tuning by files is called */
+  FilesNames files; /**< What it and the files that a player gives it are called */
 } InstrumentKind;
 
 /** For instantiate(): NULL if the host offers no urid:map, or `kind` makes no player.  `kind` has

@@ -26,6 +26,10 @@ static void set(void* harp, const Controls* controls, uint32_t n_frames) {
   harp_set_patch(harp, &patch, n_frames);
 }
 
+static void set_body(void* harp, const Body* body) {
+  harp_set_body(harp, body);
+}
+
 static Performance perform(void* harp) {
   return harp_performance(harp);
 }
@@ -48,10 +52,11 @@ static const InstrumentKind kind = {
     .reset = reset,
     .read = strings_ports_read,
     .set = set,
+    .set_body = set_body,
     .perform = perform,
     .run = run,
     .report = report,
-    .tuner = {STRINGS_URI, {STRINGS_URI "#scale", STRINGS_URI "#mapping"}},
+    .files = {STRINGS_URI, {STRINGS_URI "#scale", STRINGS_URI "#mapping", STRINGS_URI "#body"}},
 };
 
 static LV2_Handle instantiate(const LV2_Descriptor* descriptor,

@@ -44,6 +44,10 @@ HarpPatch strings_ports_patch(const Controls* controls) {
       .second = (double)v[STRINGS_PORT_SECOND],
       .second_detune = (double)v[STRINGS_PORT_SECOND_DETUNE],
       .second_decay = (double)v[STRINGS_PORT_SECOND_DECAY],
+      .body = {(BodiesChoice)ports_whole(v[STRINGS_PORT_BODY]),
+               (double)v[STRINGS_PORT_BODY_MIX],
+               {(double)v[STRINGS_PORT_BODY_SIZE], (double)v[STRINGS_PORT_BODY_DAMPING]},
+               (double)v[STRINGS_PORT_KNOCK]},
   };
 }
 

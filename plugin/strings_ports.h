@@ -49,12 +49,17 @@
   X(UNISON_DETUNE, unison_detune, 36, 0.0f, 20.0f, 2.0f)                                           \
   X(SECOND, second, 37, 0.0f, 1.0f, 0.0f)                                                          \
   X(SECOND_DETUNE, second_detune, 38, 0.0f, 30.0f, 5.0f)                                           \
-  X(SECOND_DECAY, second_decay, 39, 0.25f, 4.0f, 1.0f)
+  X(SECOND_DECAY, second_decay, 39, 0.25f, 4.0f, 1.0f)                                             \
+  X(BODY, body, 40, 0.0f, 12.0f, 0.0f)                                                             \
+  X(BODY_MIX, body_mix, 41, 0.0f, 1.0f, 0.7f)                                                      \
+  X(BODY_SIZE, body_size, 42, 0.5f, 2.0f, 1.0f)                                                    \
+  X(BODY_DAMPING, body_damping, 43, 0.25f, 4.0f, 1.0f)                                             \
+  X(KNOCK, knock, 44, 0.0f, 1.0f, 0.0f)
 
 #define STREAM_ENUM(name, symbol, index) STRINGS_PORT_##name = (index),
 #define CONTROL_ENUM(name, symbol, index, minimum, maximum, default_value)                         \
   STRINGS_PORT_##name = (index),
-enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 40 };
+enum { STRINGS_STREAM_PORTS(STREAM_ENUM) STRINGS_CONTROL_PORTS(CONTROL_ENUM) STRINGS_N_PORTS = 45 };
 #undef STREAM_ENUM
 #undef CONTROL_ENUM
 

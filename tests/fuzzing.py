@@ -6,8 +6,6 @@ fuzz_NAME looks for more with libFuzzer, which only clang has, in code that ASan
 
 import os
 
-from tools import native
-
 # What a harness needs of tools/; the rest of it needs libraries that are none of ours to fuzz.
 TOOLS = ['tools/formats/%s.c' % name for name in ['bytes', 'escape', 'text', 'smf', 'scene*', 'score*']]
 
@@ -58,24 +56,24 @@ def build_replays(bld, use):
                     defines=['FUZZ_NAME="%s"' % name[len('fuzz_'):]])
 
 
-def build(bld, analysis, avx2):
+def build(bld, core, wider, analysis):
     """builds fuzz_NAME of every harness, and all that it needs once more, watched"""
     if bld.env.NO_FUZZING:
         return
-    for_avx2 = bld.path.ant_glob('core/*/*_avx2.c') if bld.env.DEST_CPU == 'x86_64' else []
-    core = bld.path.ant_glob('core/*/*.c', excl=[analysis, 'core/*/*_avx2.c']) + [native.bodies(bld)]
-    defines = ['HOOKE_AVX2'] if for_avx2 else []
+    parts, defines = wider
     rest = bld.path.ant_glob(TOOLS + ['plugin/*.c', analysis]) + helpers(bld)
 
     def library(name, sources, **more):
         bld.stlib(source=sources, target='fuzz/' + name, install_path=None, env=environment(bld), **more)
 
-    library('avx2', for_avx2, cflags=avx2, defines=defines)
-    library('core', core, defines=defines, use='fuzz/avx2 M')
+    for name, sources, flags in parts:
+        library(name, sources, cflags=flags, defines=defines)
+    needed = ' '.join('fuzz/' + part[0] for part in parts)
+    library('core', core, defines=defines, use=needed + ' M')
     library('rest', rest, use='fuzz/core LAPACK LV2 M')
     for name in harnesses(bld):
         bld.program(source='tests/fuzz/%s.c' % name, target='fuzz/' + name, install_path=None, env=environment(bld),
-                    use='fuzz/rest fuzz/core fuzz/avx2 LAPACK LV2 M DL PTHREAD')
+                    use='fuzz/rest fuzz/core %s LAPACK LV2 M DL PTHREAD' % needed)
 
 
 def environment(bld):

@@ -9,6 +9,9 @@ import os
 SOURCES = ['core/base/*.c', 'core/bank/*.c', 'core/string/pole.c', 'core/analysis/*.c', 'tools/bodies/*.c'] + [
     'tools/formats/%s.c' % name for name in ['bytes', 'escape', 'text', 'scene', 'scene_body', 'scene_mesh', 'scene_reader']]
 
+# It is not worth more than every processor has.
+WIDER = ['core/*/*_avx2.c', 'core/*/*_avx512.c']
+
 # What is the target's own and would be taken for ours.
 OF_TARGET = ['CC', 'AR', 'CFLAGS', 'CPPFLAGS', 'LDFLAGS', 'LINKFLAGS', 'PKG_CONFIG_PATH']
 
@@ -51,7 +54,7 @@ def bodies(bld):
 def build(bld):
     """makes it, anew when a body or what reduces it has changed"""
     env = bld.all_envs['native'].derive()
-    bld.program(source=bld.path.ant_glob(SOURCES), target='native/bodies', env=env, use='LAPACK M', install_path=None)
+    bld.program(source=bld.path.ant_glob(SOURCES, excl=WIDER), target='native/bodies', env=env, use='LAPACK M', install_path=None)
     program = bld.bldnode.find_or_declare('native/bodies')
     files = bld.path.ant_glob(['presets/bodies/*.scene', 'presets/bodies/*.body'])
     bld(rule=run, source=[program] + files, target=[bodies(bld)], name='bodies')

@@ -779,6 +779,31 @@ def sentences(error, unit, strings, default, level):
     return words
 
 
+BODIES = ('error-bodies', 'Bodies, by how many of their modes are kept')
+
+
+def weigh_bodies(report, seconds):
+    text = report.hooke.run('bench', 'bodies', '--csv', *([] if seconds is None else ['--seconds', '%g' % seconds]))
+    report.files['bodies.csv'] = text
+    rows = [{key: value if key == 'body' else float(value) for key, value in row.items()} for row in csv.DictReader(io.StringIO(text))]
+    names = list(dict.fromkeys(row['body'] for row in rows))
+    figure, axes = plt.subplots(figsize=(7.0, 4.6))
+    for i, name in enumerate(names):
+        of_it = [row for row in rows if row['body'] == name]
+        some, whole = of_it[:-1], of_it[-1]
+        colour = plt.get_cmap('tab20')(i)
+        axes.plot([row['ns_per_frame'] for row in some], [max(row['error_db'], 0.01) for row in some], 'o-', color=colour, markersize=3,
+                  label=name)
+        axes.plot([whole['ns_per_frame']], [0.01], 'o', color=colour, markersize=9, markerfacecolor='none')
+    axes.set(xscale='log', yscale='log', xlabel='run time [ns a frame, driven and heard in stereo]',
+             ylabel='error over thirds of octaves [dB]')
+    figure.legend(*axes.get_legend_handles_labels(), loc='upper center', bbox_to_anchor=(0.5, 0.0), ncol=4)
+    report.picture(*BODIES, 'The strongest 8, 16, 32 … modes of each body at 48 kHz, against all of them from 80 Hz to 8 kHz: the root of '
+                   'the mean square over thirds of octaves. Rings are the bodies as they come, with all their modes, which by this '
+                   'measure err by nothing. Of 64 modes the worst errs by %.2g dB, of 128 by %.2g.' % tuple(
+                       max(row['error_db'] for row in rows if row['modes'] == n) for n in (64.0, 128.0)), figure)
+
+
 # The pages
 
 SLIPS = ['Algorithm 2 prints μ = √(R² − γ²/4)/h. R is already (ω0 h)², so μ = √(R/h² − γ²/4), and Table 1 needs that form.',
@@ -812,7 +837,7 @@ def markdown(report):
         lines += ['| %s |' % ' | '.join(row) for row in getattr(report, rows)]
     lines += ['', '## Where the paper has it otherwise', ''] + ['%d. %s' % both for both in enumerate(SLIPS, 1)]
     lines += ['', '## Error against run time', '', SURVEY]
-    for _, title, words, _ in report.figures[-len(ERRORS):]:
+    for _, title, words, _ in report.figures[-len(ERRORS) - 1:]:
         lines += ['', '%s. %s' % (title, words)]
     return '\n'.join(lines) + '\n'
 
@@ -851,6 +876,7 @@ def make(program, directory, seconds):
         draw_second_test(report)
         draw_string(report)
         weigh(report, seconds)
+        weigh_bodies(report, seconds)
     report.render()
     report.files.update({'report.md': markdown(report), 'report.html': page(report)})
     os.makedirs(directory, exist_ok=True)

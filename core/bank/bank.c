@@ -1,6 +1,8 @@
 #include "core/bank/bank.h"
 
+#include <assert.h>
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 void bank_clear(Bank* bank) {
@@ -8,6 +10,7 @@ void bank_clear(Bank* bank) {
 }
 
 void bank_add(Bank* bank, BankMode mode) {
+  assert((uintptr_t)bank->a % BANK_ALIGNMENT == 0);
   if (bank->n_added == BANK_MAX_MODES) {
     return;
   }
@@ -17,6 +20,7 @@ void bank_add(Bank* bank, BankMode mode) {
   bank->in[k] = mode.in;
   bank->out[0][k] = mode.out[0];
   bank->out[1][k] = mode.out[1];
+  bank->kernel = bank->kernel ? bank->kernel : bank_kernel(0);
   bank->n_modes = (bank->n_added + BANK_LANES - 1) / BANK_LANES * BANK_LANES;
 }
 
@@ -25,49 +29,49 @@ void bank_rest(Bank* bank) {
   memset(bank->u, 0, sizeof(bank->u));
 }
 
+static double larger(double level, double value) {
+  return fabs(value) > level ? fabs(value) : level;
+}
+
+/* Lane by lane, so that the compiler makes vectors of it. */
 double bank_level(const Bank* bank) {
+  double lanes[BANK_LANES] = {0.0};
+  for (uint32_t k = 0; k < bank->n_modes; k += BANK_LANES) {
+    for (uint32_t l = 0; l < BANK_LANES; ++l) {
+      lanes[l] = larger(larger(lanes[l], bank->x[k + l]), bank->u[k + l]);
+    }
+  }
   double level = 0.0;
-  for (uint32_t k = 0; k < bank->n_modes; ++k) {
-    level = fmax(level, fmax(fabs(bank->x[k]), fabs(bank->u[k])));
+  for (uint32_t l = 0; l < BANK_LANES; ++l) {
+    level = larger(level, lanes[l]);
   }
   return level;
 }
 
-/* How fast mode k speeds up. */
-static double step(Bank* bank, uint32_t k, double force) {
-  const double d = bank->in[k] * force - bank->a[k] * bank->x[k] - bank->g[k] * bank->u[k];
-  bank->u[k] += d;
-  bank->x[k] += bank->u[k];
-  return d;
-}
-
-/* Lanes are added one by one, whatever the vectors are. */
-static double sum_of(const double lanes[BANK_LANES]) {
-  double sum = 0.0;
-  for (int i = 0; i < BANK_LANES; ++i) {
-    sum += lanes[i];
-  }
-  return sum;
+static BankWork work_of(Bank* bank) {
+  return (BankWork){
+      .n_groups = bank->n_modes / BANK_LANES,
+      .a = bank->a,
+      .g = bank->g,
+      .in = bank->in,
+      .left = bank->out[0],
+      .right = bank->out[1],
+      .x = bank->x,
+      .u = bank->u,
+  };
 }
 
 void bank_run(Bank* bank, const float* force, uint32_t n_frames, float* left, float* right) {
-  for (uint32_t n = 0; n < n_frames; ++n) {
-    double lanes[2][BANK_LANES] = {{0.0}};
-    for (uint32_t k = 0; k < bank->n_modes; ++k) {
-      const double d = step(bank, k, (double)force[n]);
-      lanes[0][k % BANK_LANES] += bank->out[0][k] * d;
-      lanes[1][k % BANK_LANES] += bank->out[1][k] * d;
-    }
-    left[n] += (float)sum_of(lanes[0]);
-    right[n] += (float)sum_of(lanes[1]);
+  if (bank->n_modes > 0) {
+    const BankWork work = work_of(bank);
+    bank->kernel->run(&work, force, n_frames, left, right);
   }
 }
 
 double bank_push(Bank* bank, double force) {
-  double lanes[BANK_LANES] = {0.0};
-  for (uint32_t k = 0; k < bank->n_modes; ++k) {
-    (void)step(bank, k, force);
-    lanes[k % BANK_LANES] += bank->x[k];
+  if (bank->n_modes == 0) {
+    return 0.0;
   }
-  return sum_of(lanes);
+  const BankWork work = work_of(bank);
+  return bank->kernel->push(&work, force);
 }

@@ -11,23 +11,20 @@
 
    The place itself, by which it pulls back at what pulls it, is at Σ x_k.
 
-   The samples depend neither on how the frames are cut into calls nor on the processor.
+   The samples depend neither on how the frames are cut into calls nor on the processor: the kernels
+   differ in speed alone.
 
    Thread: one at a time; real-time safe.
 */
 #ifndef HOOKE_CORE_BANK_BANK_H
 #define HOOKE_CORE_BANK_BANK_H
 
+#include "core/bank/bank_kernel.h"
 #include "core/string/pole.h"
 
-#include <stdbool.h>
 #include <stdint.h>
 
-enum {
-  BANK_MAX_MODES = 256,
-  BANK_LANES = 8,      /**< Modes that are stepped together: their number is rounded up to it */
-  BANK_ALIGNMENT = 64, /**< [bytes] */
-};
+enum { BANK_MAX_MODES = 256 };
 
 /** One mode as it is added. */
 typedef struct {
@@ -36,9 +33,10 @@ typedef struct {
   double out[2]; /**< l and r */
 } BankMode;
 
-/** Zero is one without modes, which is silent. */
+/** Zero is one without modes, which is silent.  On the heap it takes aligned_new(). */
 typedef struct {
-  uint32_t n_modes; /**< A multiple of BANK_LANES; those beyond what was added are zeros */
+  const BankKernel* kernel; /**< Which steps it; NULL where there are no modes */
+  uint32_t n_modes;         /**< A multiple of BANK_LANES; those beyond what was added are zeros */
   uint32_t n_added;
   _Alignas(BANK_ALIGNMENT) double a[BANK_MAX_MODES];
   _Alignas(BANK_ALIGNMENT) double g[BANK_MAX_MODES];
@@ -60,7 +58,8 @@ void bank_rest(Bank* bank);
 /** The largest |x_k| and |u_k| of any mode. */
 double bank_level(const Bank* bank);
 
-/** Step `n_frames` times, by `force[n]` in each, and add what is heard to `left` and `right`. */
+/** Step `n_frames` times, by `force[n]` in each, and add what is heard to `left` and `right`, which
+ * overlap neither with `force` nor with each other. */
 void bank_run(Bank* bank, const float* force, uint32_t n_frames, float* left, float* right);
 
 /** Step once, by `force`, heard by nobody.  @return Where the place is then, Σ x_k */

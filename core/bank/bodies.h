@@ -27,6 +27,14 @@
 typedef enum { BODIES_NONE, BODIES_LIST(BODIES_ENUM) BODIES_FILE, BODIES_COUNT } BodiesChoice;
 #undef BODIES_ENUM
 
+/** What the player of an instrument sets of its body. */
+typedef struct {
+  BodiesChoice choice;
+  double mix;      /**< Power of the body in what is heard, beside the strings', 0 to 1 */
+  BodyShape shape; /**< Its size and its damping */
+  double knock;    /**< How hard what plays the strings pushes the body itself, 0 to 1 */
+} BodyPatch;
+
 /** A shipped body; NULL for BODIES_NONE and BODIES_FILE.  It lasts as long as the program. */
 const Body* bodies_shipped(BodiesChoice choice);
 

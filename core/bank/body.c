@@ -13,24 +13,31 @@ enum { PLACES = 16 };
 static const double LOW_HZ = 80.0;
 static const double HIGH_HZ = 5000.0;
 
-double body_gain_square(const Body* body, double hz) {
-  double complex heard[2] = {0.0, 0.0};
+static const BodyShape AS_IT_IS = {1.0, 1.0};
+
+void body_gain(const Body* body, BodyShape shape, double hz, double complex gain[2]) {
+  gain[0] = 0.0;
+  gain[1] = 0.0;
   for (uint32_t k = 0; k < body->n_modes; ++k) {
     const BodyMode* const mode = &body->modes[k];
-    const double ratio = mode->f0_hz / hz;
+    const double ratio = mode->f0_hz / (hz * shape.size);
     /* q̈ = f/M over 1 − (F/f)² − i F/(Q f) */
-    const double complex d = complex_of(1.0 - ratio * ratio, -ratio / mode->q);
+    const double complex d = complex_of(1.0 - ratio * ratio, -ratio * shape.damping / mode->q);
     const double complex moved =
         conj(d) / (mode->mass_kg * (creal(d) * creal(d) + cimag(d) * cimag(d)));
-    heard[0] += mode->radiation[0] * moved;
-    heard[1] += mode->radiation[1] * moved;
+    gain[0] += mode->radiation[0] * moved;
+    gain[1] += mode->radiation[1] * moved;
   }
-  double square = 0.0;
-  for (int side = 0; side < 2; ++side) {
-    square +=
-        0.5 * (creal(heard[side]) * creal(heard[side]) + cimag(heard[side]) * cimag(heard[side]));
-  }
-  return square;
+}
+
+static double square_of(double complex z) {
+  return creal(z) * creal(z) + cimag(z) * cimag(z);
+}
+
+double body_gain_square(const Body* body, BodyShape shape, double hz) {
+  double complex gain[2];
+  body_gain(body, shape, hz, gain);
+  return 0.5 * (square_of(gain[0]) + square_of(gain[1]));
 }
 
 static double band_hz(int band) {
@@ -40,9 +47,42 @@ static double band_hz(int band) {
 static double mean_over_band(const Body* body, double hz) {
   double sum = 0.0;
   for (int i = 0; i < PLACES; ++i) {
-    sum += body_gain_square(body, hz * exp2(((i + 0.5) / PLACES - 0.5) / 3.0));
+    sum += body_gain_square(body, AS_IT_IS, hz * exp2(((i + 0.5) / PLACES - 0.5) / 3.0));
   }
   return sum / PLACES;
+}
+
+void body_narrow(BodyMode* mode) {
+  const double both = 0.5 * (mode->radiation[0] + mode->radiation[1]);
+  const double most = BODY_APART * fabs(both);
+  const double apart = clamp(0.5 * (mode->radiation[0] - mode->radiation[1]), -most, most);
+  mode->radiation[0] = both + apart;
+  mode->radiation[1] = both - apart;
+}
+
+/* What a mode gives to a third of an octave: the square of its peak, and its width. */
+static double strength(const BodyMode* mode) {
+  const double sides =
+      mode->radiation[0] * mode->radiation[0] + mode->radiation[1] * mode->radiation[1];
+  return sides * mode->q / (mode->mass_kg * mode->mass_kg);
+}
+
+/* Leave out the one that is heard least. */
+static void drop_one(Body* body) {
+  uint32_t least = 0;
+  for (uint32_t k = 1; k < body->n_modes; ++k) {
+    least = strength(&body->modes[k]) < strength(&body->modes[least]) ? k : least;
+  }
+  --body->n_modes;
+  for (uint32_t k = least; k < body->n_modes; ++k) {
+    body->modes[k] = body->modes[k + 1];
+  }
+}
+
+void body_keep(Body* body, uint32_t n_modes) {
+  while (body->n_modes > n_modes) {
+    drop_one(body);
+  }
 }
 
 void body_level(Body* body) {

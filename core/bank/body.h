@@ -17,6 +17,7 @@
 
 #include "core/bank/bank.h"
 
+#include <complex.h>
 #include <stdint.h>
 
 enum {
@@ -44,18 +45,32 @@ typedef struct {
   double power[BODY_BANDS];       /**< Mean over each band of (|left/f|² + |right/f|²)/2 */
 } Body;
 
+/** The most that a shipped mode has on one side alone, of what it has on both: so nothing is lost
+ * where both sides are added, and no partial is far louder on one. */
+#define BODY_APART 0.2
+
 /** How a player changes a body. */
 typedef struct {
   double size;    /**< All its frequencies are divided by it, > 0 */
   double damping; /**< All its losses are multiplied by it, > 0 */
 } BodyShape;
 
+/** Bring what is heard of a mode on both sides within BODY_APART; what it has on both stays. */
+void body_narrow(BodyMode* mode);
+
+/** Keep the `n_modes` that are heard most, by what each gives to a third of an octave in power, in
+ * their order; what is heard of them is as loud as it was. */
+void body_keep(Body* body, uint32_t n_modes);
+
 /** Make the gain of all modes together BODY_POWER by a factor of their radiation, and fill in
  * `power`. A body that radiates nothing is left as it is, with no power. */
 void body_level(Body* body);
 
-/** (|left/f|² + |right/f|²)/2 at one frequency [Hz]. */
-double body_gain_square(const Body* body, double hz);
+/** left/f and right/f at one frequency [Hz], of what goes as exp(+2πi hz t).  Real-time safe. */
+void body_gain(const Body* body, BodyShape shape, double hz, double complex gain[2]);
+
+/** (|left/f|² + |right/f|²)/2 at one frequency [Hz].  Real-time safe. */
+double body_gain_square(const Body* body, BodyShape shape, double hz);
 
 /** The same, as the mean over the third of an octave around it, of a body of a shape: in a straight
  * line between the bands that are known.  Real-time safe, and takes no longer for more modes. */

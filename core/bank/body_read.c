@@ -279,13 +279,13 @@ static BodyMode draw_mode(const Crowd* crowd, double hz, double share, Draw* dra
   const double normal = draw_normal(draw);
   const double strings = copysign(fmax(fabs(normal), LEAST_SHARE), normal);
   const double both = draw_normal(draw);
-  const double apart = 0.5 * draw_normal(draw);
-  const double radiation = at_share(crowd->radiation, share) * sqrt(0.8) / strings;
+  const double apart = BODY_APART * (1.0 - 2.0 * draw_even(draw));
+  const double radiation = at_share(crowd->radiation, share) * both / strings;
   return (BodyMode){
       .f0_hz = hz,
       .q = at_share(crowd->q, share),
       .mass_kg = at_share(crowd->mass, share) / (strings * strings),
-      .radiation = {radiation * (both + apart), radiation * (both - apart)},
+      .radiation = {radiation * (1.0 + apart), radiation * (1.0 - apart)},
   };
 }
 

@@ -15,11 +15,11 @@
 
    The same text gives the same modes.  Of those by chance neighbours keep a distance as in a plate
    of no simple shape, sqrt(−4/π ln v) of the mean, v even from 0 to 1 (Wigner); what they do at
-   the strings and in the air is normal, b, c and d, as it is at any place of such a plate:
+   the strings and in the air is normal, b and c, as it is at any place of such a plate:
 
-       M_k = M/b²,   l_k = R (c + d/2)/b √(4/5),   r_k = R (c − d/2)/b √(4/5),
+       M_k = M/b²,   l_k = R c (1 + e)/b,   r_k = R c (1 − e)/b,
 
-   with b kept from 0 by LEAST_SHARE; low modes are so heard alike on both sides to 0.6.
+   with b kept from 0 by LEAST_SHARE, and e even, at most BODY_APART: so nothing is lost in mono.
 
    Thread: any.
 */

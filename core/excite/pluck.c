@@ -126,18 +126,3 @@ double pluck_pull(Chain* chain, Pluck pluck) {
   chain_add(chain, &aside.at[1], &force.at[1]);
   return chain_energy(chain) - before;
 }
-
-double pluck_push(Chain* chain, Pluck pluck) {
-  static const double none[CHAIN_MAX_MASSES] = {0.0};
-  const double angle1 = pole_angle(tuning_mode(chain->now, chain->n_masses, 1));
-  const double size = pluck.amplitude * (2.0 / PI) * (chain->n_masses + 1.0) * sin(angle1);
-  const double before = chain_energy(chain);
-  Shape push;
-  push.n = chain->n_masses;
-  press(&push, &pluck);
-  for (uint32_t i = 1; i <= push.n; ++i) {
-    push.at[i] *= size;
-  }
-  chain_add(chain, none, &push.at[1]);
-  return chain_energy(chain) - before;
-}

@@ -66,15 +66,4 @@ double pluck_width(const Pluck* pluck, uint32_t n_masses);
 */
 double pluck_pull(Chain* chain, Pluck pluck);
 
-/**
-   Push a string where it is: momentum is added, and no position jumps.
-
-   As a string moves in displacement that is pushed, so moves one in velocity that is pulled aside:
-   partial k of it is sin(kπp)/k.  So who hears velocities alone, as a magnet does, may push and
-   read displacements.  The fundamental's amplitude is that of pluck_pull().
-
-   @return What it adds to the energy of the chain
-*/
-double pluck_push(Chain* chain, Pluck pluck);
-
 #endif

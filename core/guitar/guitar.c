@@ -7,7 +7,6 @@
 #include "core/guitar/guitar_string.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* A finger that falls or pulls off, against a pluck of the same force. */
@@ -108,10 +107,12 @@ double guitar_hardness(double hardness, double force) {
 }
 
 Guitar* guitar_new(double rate_hz) {
-  Guitar* const guitar = isfinite(rate_hz) && rate_hz > 0.0 ? calloc(1, sizeof(Guitar)) : NULL;
+  Guitar* const guitar =
+      isfinite(rate_hz) && rate_hz > 0.0 ? aligned_new(_Alignof(Guitar), sizeof(Guitar)) : NULL;
   if (!guitar) {
     return NULL;
   }
+  memset(guitar, 0, sizeof(*guitar));
   const size_t size = chain_size(GUITAR_MAX_MASSES);
   guitar->rate_hz = rate_hz;
   guitar->n_gesture = voice_gesture_frames(rate_hz);
@@ -133,7 +134,7 @@ Guitar* guitar_new(double rate_hz) {
 void guitar_free(Guitar* guitar) {
   if (guitar) {
     aligned_free(guitar->memory);
-    free(guitar);
+    aligned_free(guitar);
   }
 }
 
@@ -178,6 +179,10 @@ void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frame
     }
   }
   follow_all(guitar, n_glide);
+}
+
+void guitar_set_body(Guitar* guitar, const Body* body) {
+  guitar_mixer_take_body(&guitar->mixer, body, guitar->n_gesture);
 }
 
 /* What a key without a pitch has is between those of its neighbours that have one. */
@@ -240,13 +245,20 @@ static void make_noise(Guitar* guitar, uint32_t string, double hardness, double 
   }
 }
 
+/* The hand is in the wood as well. */
+static void knock(Guitar* guitar, uint32_t string, double hardness, double force) {
+  if (has(guitar, string)) {
+    guitar_mixer_knock(&guitar->mixer, string, hardness, GUITAR_NOTE_PEAK * fabs(force));
+  }
+}
+
 void guitar_pluck(Guitar* guitar, uint32_t string, GuitarPluck pluck) {
   const GuitarPatch* const patch = &guitar->patch;
   const double place = isnan(pluck.place) ? patch->pluck : pluck.place;
   const bool is_usual = isnan(pluck.hardness);
-  make_noise(guitar, string,
-             is_usual ? guitar_hardness(patch->hardness, pluck.force) : pluck.hardness,
-             pluck.force);
+  const double hardness = is_usual ? guitar_hardness(patch->hardness, pluck.force) : pluck.hardness;
+  make_noise(guitar, string, hardness, pluck.force);
+  knock(guitar, string, hardness, pluck.force);
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
     GuitarString* const s = string_of(guitar, string, side);
     const double share = side ? guitar->patch.course : 1.0;
@@ -269,6 +281,7 @@ void guitar_fret(Guitar* guitar, uint32_t string, double fret) {
 
 void guitar_hammer(Guitar* guitar, uint32_t string, double fret, double force) {
   make_noise(guitar, string, HAMMER_HARDNESS, HAMMER_GAIN * force);
+  knock(guitar, string, HAMMER_HARDNESS, HAMMER_GAIN * force);
   for (int side = 0; has(guitar, string) && side < 2; ++side) {
     GuitarString* const s = string_of(guitar, string, side);
     const double share = side ? guitar->patch.course : 1.0;

@@ -1,6 +1,6 @@
 /**
-   Up to eight strings that are fretted, plucked, slid, bent, touched and damped, and the pickups
-   under them.
+   Up to eight strings that are fretted, plucked, slid, bent, touched and damped, the pickups under
+   them, and the body that they are on.
 
    Length.  The bridge is place 0 and the nut of the open string place 1; where strings are plucked
    and read is measured so, and does not move when they are fretted.  A string of N masses that is
@@ -15,6 +15,10 @@
    fewer masses first, where it becomes longer onto the more masses last; what it is read by fades
    over.  So nothing clicks.  The samples do not depend on how the frames are cut into calls of
    guitar_run().
+
+   Body.  The strings are pulled and let go, pickups are magnets and hear how fast they move, and
+   the body hears how they pull at the bridge and does nothing to them (core/voice/radiator.h).  No
+   palm damps it.
 
    Thread: guitar_new() and guitar_free() anywhere but the audio thread; all else is real-time safe,
    one thread at a time.
@@ -63,6 +67,9 @@ void guitar_reset(Guitar* guitar);
 /** Take a new patch; what rings gets there in `n_frames`, and no faster than by a gesture (0: at
    once).  How and where strings are plucked, and the most masses, hold from the next pluck on. */
 void guitar_set_patch(Guitar* guitar, const GuitarPatch* patch, uint32_t n_frames);
+
+/** What BODIES_FILE is from now on: a copy of `body`; NULL: nothing.  What rings fades there. */
+void guitar_set_body(Guitar* guitar, const Body* body);
 
 /**
    Give the keys of a channel other pitches.  A string is tuned, open or at the capo, as its key is,

@@ -2,6 +2,7 @@
 #ifndef HOOKE_CORE_GUITAR_GUITAR_PATCH_H
 #define HOOKE_CORE_GUITAR_GUITAR_PATCH_H
 
+#include "core/bank/bodies.h"
 #include "core/voice/string_patch.h"
 
 #include <stdbool.h>
@@ -30,11 +31,12 @@ typedef struct {
   GuitarPickup pickups[GUITAR_PICKUPS];
   double open[GUITAR_STRINGS]; /**< MIDI note of each open string, the highest string first */
   uint32_t n_strings;          /**< How many there are, 1 to GUITAR_STRINGS */
-  double capo;   /**< Fret that the capo is at, ≥ 0; the others are counted from there */
-  double palm;   /**< How heavily the palm lies on the strings, 0 to 1: see GUITAR_PALM_PER_S */
-  double course; /**< Loudness of the string beside each, 0 to 1; 0: there is none */
-  double noise;  /**< How loud fingers and picks are themselves, 0 to 1 */
-  double width;  /**< How far the strings are spread from left to right, 0 to 1 */
+  double capo;    /**< Fret that the capo is at, ≥ 0; the others are counted from there */
+  double palm;    /**< How heavily the palm lies on the strings, 0 to 1: see GUITAR_PALM_PER_S */
+  double course;  /**< Loudness of the string beside each, 0 to 1; 0: there is none */
+  double noise;   /**< How loud fingers and picks are themselves, 0 to 1 */
+  double width;   /**< How far the strings are spread from left to right, 0 to 1 */
+  BodyPatch body; /**< What radiates beside the pickups */
   bool is_uncorrected; /**< Frets stop a mass and nothing else, as in [MQ09]: out of tune */
 } GuitarPatch;
 

@@ -7,6 +7,9 @@
 /* Time in which a choked string has died away far enough for another to take its place [s]. */
 static const double LEFT_S = 5.0 * VOICE_CHOKE_S;
 
+/* Where it pulls at the body. */
+static const Pickup at_bridge = {PICKUP_FORCE, 0.0};
+
 uint32_t guitar_string_masses(uint32_t n_open, double frets) {
   return (uint32_t)fmax(1.0, round((n_open + 1.0) * exp2(-frets / 12.0)) - 1.0);
 }
@@ -70,6 +73,12 @@ static VoiceAim aim_of(const GuitarString* string) {
   };
 }
 
+/* What a magnet hears is to be as loud at every pitch as what moves: 1/(2 sin(ω/2)), ω being the
+ * fundamental's digital angle. */
+static double weight_of(const Voice* voice) {
+  return 0.5 / sin(fmin(PI * voice->f0_hz / voice->rate_hz, 0.5 * PI));
+}
+
 /* A pitch that cannot be had chokes it. */
 static void retune(GuitarString* string, uint32_t n_glide) {
   Voice* const voice = &string->voice;
@@ -78,7 +87,20 @@ static void retune(GuitarString* string, uint32_t n_glide) {
     const VoiceAim aim = aim_of(string);
     voice_aim(voice, &aim, n_glide);
     string->damper = voice->is_choked ? GUITAR_CHOKED : string->damper;
+    line_to(&string->weight, weight_of(voice), voice->chain.n_gliding);
   }
+}
+
+static double pull_of(const GuitarString* string) {
+  const ChainTap tap = voice_tap(&string->voice, &at_bridge, 0.0);
+  return string->voice.is_awake
+             ? (double)tap.weight[0] * (double)chain_position(&string->voice.chain, tap.mass[0])
+             : 0.0;
+}
+
+/* Something moves it to where it pulls otherwise than it did `before`; that is not heard. */
+static void hide(GuitarString* string, double before) {
+  onset_hide(&string->onset, before - pull_of(string), 0.0);
 }
 
 /* Masses between the bridge and where it will be stopped. */
@@ -91,7 +113,9 @@ static uint32_t masses_wanted(const GuitarString* string) {
 static void shorten(GuitarString* string) {
   if (string->voice.is_awake) {
     const VoiceAim aim = aim_of(string);
+    const double before = pull_of(string);
     voice_shorten(&string->voice, &aim, masses_wanted(string));
+    hide(string, before);
   }
 }
 
@@ -99,7 +123,9 @@ static void shorten(GuitarString* string) {
 static void lengthen(GuitarString* string) {
   if (string->voice.is_awake) {
     const VoiceAim aim = aim_of(string);
+    const double before = pull_of(string);
     voice_lengthen(&string->voice, &aim, masses_wanted(string));
+    hide(string, before);
   }
 }
 
@@ -127,7 +153,7 @@ static void begin_piece(void* of) {
 
 static void places_of(const GuitarString* string, Pickup places[PICKUPS]) {
   for (int p = 0; p < GUITAR_PICKUPS; ++p) {
-    places[p] = (Pickup){.type = PICKUP_DISPLACEMENT,
+    places[p] = (Pickup){.type = PICKUP_MAGNET,
                          .place = guitar_string_place(string, string->patch->pickups[p].place)};
   }
 }
@@ -142,12 +168,17 @@ static bool restring(GuitarString* string) {
   const VoiceAim aim = aim_of(string);
   places_of(string, places);
   pickups_set(&string->pickups, places);
-  return voice_string(&string->voice, &aim, masses_wanted(string), 0);
+  string->onset = (Onset){0};
+  if (!voice_string(&string->voice, &aim, masses_wanted(string), 0)) {
+    return false;
+  }
+  line_set(&string->weight, weight_of(&string->voice));
+  return true;
 }
 
 void guitar_string_init(
     GuitarString* string, const GuitarPatch* patch, double rate_hz, uint32_t phase, void* memory) {
-  *string = (GuitarString){.patch = patch};
+  *string = (GuitarString){.patch = patch, .onset_pole = onset_pole(rate_hz)};
   voice_init(&string->voice, rate_hz, phase, memory, GUITAR_MAX_MASSES,
              (VoiceOwner){begin_piece, string}, NULL);
 }
@@ -215,6 +246,8 @@ void guitar_string_leave(GuitarString* string, GuitarString* tail) {
   voice_hand_over(voice, &tail->voice);
   voice_slide(&tail->voice, tail->voice.motion.slide.value, 0);
   tail->pickups = string->pickups;
+  tail->weight = string->weight;
+  tail->onset = string->onset;
   tail->open = string->open;
   tail->detuning = string->detuning;
   tail->n_fade = string->n_fade;
@@ -231,7 +264,10 @@ void guitar_string_pluck(GuitarString* string, Pluck pluck) {
     guitar_string_damp(string, GUITAR_RINGING, 0);
   }
   if (string->voice.is_awake || restring(string)) {
-    voice_push(&string->voice, pluck); /* Its pickups are magnets. */
+    const double before = pull_of(string);
+    pluck.amplitude = -pluck.amplitude; /* It flies back from where it was pulled. */
+    voice_pluck(&string->voice, pluck);
+    hide(string, before);
   }
 }
 
@@ -268,17 +304,48 @@ add(float* const* samples, const GuitarGains* gains, uint32_t from, uint32_t n_f
   }
 }
 
-/* A string that no pickup reads is stepped all the same. */
-static Reading reading_of(const GuitarString* string, const GuitarGains* gains) {
-  const bool is_none = !gains->is_read[0] && !gains->is_read[1];
-  return pickups_reading(&string->pickups,
-                         (const bool[PICKUPS]){gains->is_read[0] || is_none, gains->is_read[1]});
+/* A string that no pickup reads is stepped all the same; the bridge comes last, as often as there
+ * is room, and never fades. */
+static Reading reading_of(const GuitarString* string, const GuitarGains* gains, bool is_body) {
+  const bool is_none = !gains->is_read[0] && !gains->is_read[1] && !is_body;
+  Reading reading = pickups_reading(
+      &string->pickups, (const bool[PICKUPS]){gains->is_read[0] || is_none, gains->is_read[1]});
+  if (is_body) {
+    const uint32_t n_taps = chain_taps(reading.n_taps + 1);
+    while (reading.n_taps < n_taps) {
+      reading.at[reading.n_taps++] = at_bridge;
+    }
+  }
+  return reading;
+}
+
+/* What a magnet reads, as loud at every pitch. */
+static void weigh(GuitarString* string, uint32_t n_taps, uint32_t n_frames, float* const* samples) {
+  float weight[GUITAR_MIX_FRAMES];
+  line_fill(&string->weight, n_frames, weight);
+  for (uint32_t t = 0; t < n_taps; ++t) {
+    for (uint32_t n = 0; n < n_frames; ++n) {
+      samples[t][n] *= weight[n];
+    }
+  }
+}
+
+/* What it pulls at the body by, as if the fingers took their time. */
+static void add_pull(GuitarString* string, float* samples, uint32_t n_frames, float* pull) {
+  onset_run(&string->onset, string->onset_pole, n_frames, samples);
+  for (uint32_t n = 0; n < n_frames; ++n) {
+    pull[n] += samples[n];
+  }
 }
 
 /* Run it as long as the pickups do not change but by their own fade. */
-static void run_stretch(
-    GuitarString* string, const GuitarGains* gains, uint32_t from, uint32_t n_frames, float* out) {
-  const Reading reading = reading_of(string, gains);
+static void run_stretch(GuitarString* string,
+                        const GuitarGains* gains,
+                        uint32_t from,
+                        uint32_t n_frames,
+                        float* out,
+                        float* pull) {
+  const Reading reading = reading_of(string, gains, pull);
   float samples[CHAIN_MAX_TAPS][GUITAR_MIX_FRAMES];
   float* taps[CHAIN_MAX_TAPS];
   for (uint32_t t = 0; t < reading.n_taps; ++t) {
@@ -286,7 +353,13 @@ static void run_stretch(
   }
   voice_run(&string->voice, &reading, 0.0, n_frames, taps);
   pickups_cross(&string->pickups, &reading, n_frames, taps);
+  weigh(string, reading.n_heard, n_frames, taps);
   add(taps, gains, from, n_frames, out);
+  if (pull) {
+    add_pull(string, taps[reading.n_taps - 1], n_frames, pull);
+  } else {
+    string->onset = (Onset){0};
+  }
 }
 
 /* What is not heard moves all the same. */
@@ -304,10 +377,19 @@ static void pass(GuitarString* string, uint32_t n_frames) {
   }
 }
 
-void guitar_string_run(GuitarString* string,
-                       const GuitarGains* gains,
-                       uint32_t n_frames,
-                       float* out) {
+/* Frames until something happens to it: its pitch is looked after between two runs. */
+static uint32_t stretch(const GuitarString* string, uint32_t n_frames) {
+  const Voice* const voice = &string->voice;
+  uint32_t n = string->n_damped > 0 ? least(n_frames, string->n_damped) : n_frames;
+  if (voice->is_awake) {
+    n = voice->is_moving ? least(n, voice->n_until_piece) : n;
+    n = least(n, pickups_stretch(&string->pickups));
+  }
+  return n;
+}
+
+void guitar_string_run(
+    GuitarString* string, const GuitarGains* gains, uint32_t n_frames, float* out, float* pull) {
   for (uint32_t done = 0; done < n_frames;) {
     voice_catch_up(&string->voice);
     if (string->voice.is_awake) {
@@ -315,11 +397,9 @@ void guitar_string_run(GuitarString* string,
       places_of(string, places);
       pickups_move(&string->pickups, places, string->n_fade);
     }
-    uint32_t n = n_frames - done;
-    n = string->n_damped > 0 ? least(n, string->n_damped) : n;
+    const uint32_t n = stretch(string, n_frames - done);
     if (string->voice.is_awake) {
-      n = least(n, pickups_stretch(&string->pickups));
-      run_stretch(string, gains, done, n, out + done);
+      run_stretch(string, gains, done, n, out + done, pull ? pull + done : NULL);
     } else {
       run_asleep(string, n);
     }

@@ -7,6 +7,7 @@
 #define HOOKE_CORE_GUITAR_GUITAR_STRING_H
 
 #include "core/guitar/guitar_patch.h"
+#include "core/voice/onset.h"
 #include "core/voice/voice.h"
 
 #include <stdbool.h>
@@ -41,6 +42,9 @@ typedef struct {
   Voice voice;              /**< It slides to the fret where it is stopped, from the capo */
   const GuitarPatch* patch; /**< The guitar's */
   Pickups pickups;
+  Line weight;     /**< Of what magnets hear, so that it is as loud at every pitch */
+  Onset onset;     /**< What hides from the body that the string was pulled aside */
+  Pole onset_pole; /**< The mass of that */
   GuitarDamper damper;
   double open;       /**< MIDI note of the open string */
   double detuning;   /**< Of the string at the capo, against equal temperament [semitones] */
@@ -90,8 +94,8 @@ void guitar_string_vibrato(GuitarString* string, double depth, double rate);
 */
 void guitar_string_leave(GuitarString* string, GuitarString* tail);
 
-/** Pluck it, whatever damps it; `pluck.place` is a fraction of the sounding length.  What its
- * pickups hear is the velocity of a string that is pulled aside, see pluck_push(). */
+/** Pull it and let it go, whatever damps it; `pluck.place` is a fraction of the sounding length.
+ * What it pulls the body by follows in a millisecond or two, see core/voice/onset.h. */
 void guitar_string_pluck(GuitarString* string, Pluck pluck);
 
 /** Let it be damped for `n_frames`; 0: until it is plucked, or damped otherwise.  What is choked
@@ -104,10 +108,14 @@ void guitar_string_touch(GuitarString* string, double place, uint32_t n_frames);
 /** Lift what touches it, in a gesture. */
 void guitar_string_untouch(GuitarString* string);
 
-/** Add `n_frames`, at most GUITAR_MIX_FRAMES, of what the pickups read to `out`. */
-void guitar_string_run(GuitarString* string,
-                       const GuitarGains* gains,
-                       uint32_t n_frames,
-                       float* out);
+/**
+   Run it for `n_frames`, at most GUITAR_MIX_FRAMES.
+
+   @param out   What the pickups read is added to it: velocities, weighed such that the fundamental
+   is as large as in the displacement
+   @param pull  What it pulls at the bridge by is added to it; NULL: there is no body
+*/
+void guitar_string_run(
+    GuitarString* string, const GuitarGains* gains, uint32_t n_frames, float* out, float* pull);
 
 #endif

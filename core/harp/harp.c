@@ -10,23 +10,11 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* What the soft pedal does to hardness, and to loudness. */
 static const double SOFT_HARDNESS = -0.2;
 static const double SOFT_GAIN = 0.6;
-
-static void retune(Harp* harp, HarpString* string, uint32_t n_glide) {
-  string->lift = harp_channels_lift(harp, string);
-  harp_group_retune(string, n_glide);
-}
-
-static void retune_all(Harp* harp, uint32_t n_glide) {
-  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    retune(harp, &harp->strings[i], n_glide);
-  }
-}
 
 /* All that has a channel's touch takes it anew. */
 static void feel(Harp* harp, uint32_t channel) {
@@ -34,7 +22,7 @@ static void feel(Harp* harp, uint32_t channel) {
     HarpString* const string = &harp->strings[i];
     if (harp_channels_follows(string, channel)) {
       string->touch = harp->channels[channel].touch;
-      retune(harp, string, harp->n_gesture);
+      harp_channels_retune(harp, string, harp->n_gesture);
     }
   }
 }
@@ -76,10 +64,12 @@ static void tune_equally(Harp* harp) {
 }
 
 Harp* harp_new(double rate_hz) {
-  Harp* const harp = isfinite(rate_hz) && rate_hz > 0.0 ? calloc(1, sizeof(Harp)) : NULL;
+  Harp* const harp =
+      isfinite(rate_hz) && rate_hz > 0.0 ? aligned_new(_Alignof(Harp), sizeof(Harp)) : NULL;
   if (!harp) {
     return NULL;
   }
+  memset(harp, 0, sizeof(*harp));
   harp->rate_hz = rate_hz;
   harp->n_gesture = voice_gesture_frames(rate_hz);
   harp->onset = onset_pole(rate_hz);
@@ -90,6 +80,7 @@ Harp* harp_new(double rate_hz) {
   }
   harp_bridge_init(&harp->bridge, rate_hz);
   harp->noise_make = noise_make(rate_hz);
+  radiator_init(&harp->radiator);
   lay_out(harp, harp->memory);
   harp_channels_reset(harp->channels);
   tune_equally(harp);
@@ -100,7 +91,7 @@ void harp_free(Harp* harp) {
   if (harp) {
     harp_stereo_free(&harp->stereo);
     aligned_free(harp->memory);
-    free(harp);
+    aligned_free(harp);
   }
 }
 
@@ -117,6 +108,7 @@ void harp_reset(Harp* harp) {
   harp->is_followed = false;
   harp_channels_reset(harp->channels);
   harp_bridge_init(&harp->bridge, harp->rate_hz);
+  harp_bridge_move(harp);
   harp->reading.n_taps = 0;
   harp->n_notes = 0;
   memset(harp->noises, 0, sizeof(harp->noises));
@@ -124,6 +116,7 @@ void harp_reset(Harp* harp) {
   harp->dc = 0.0;
   memset(harp->onsets, 0, sizeof harp->onsets);
   harp_stereo_reset(&harp->stereo);
+  radiator_rest(&harp->radiator);
 }
 
 /* Whether what rings has the same coefficients under both. */
@@ -136,14 +129,22 @@ void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames) {
   const bool is_same = is_same_string(patch, &harp->patch);
   const uint32_t n_glide = n_frames > 0 && n_frames < harp->n_gesture ? harp->n_gesture : n_frames;
   harp->patch = *patch;
+  harp->patch.radiates = radiator_body(&harp->radiator, patch->body.choice);
   harp->n_fade = n_glide;
+  radiator_set(&harp->radiator, &patch->body, harp->rate_hz, n_glide);
+  harp_bridge_move(harp);
   set_level(harp, n_glide);
   if (n_glide == 0) {
     harp_mixer_place_pickups(harp);
   }
   if (!is_same) {
-    retune_all(harp, n_glide);
+    harp_channels_retune_all(harp, n_glide);
   }
+}
+
+void harp_set_body(Harp* harp, const Body* body) {
+  radiator_take_file(&harp->radiator, body);
+  harp->patch.radiates = radiator_body(&harp->radiator, harp->patch.body.choice);
 }
 
 void harp_set_scale(Harp* harp, uint32_t channel, const double semitones[HARP_KEYS], bool is_live) {
@@ -153,7 +154,7 @@ void harp_set_scale(Harp* harp, uint32_t channel, const double semitones[HARP_KE
     if (string->channel == channel && (is_live || !harp_group_is_awake(string)) &&
         semitones[string->key] != string->semitones) {
       tune(harp, string);
-      retune(harp, string, harp->n_gesture);
+      harp_channels_retune(harp, string, harp->n_gesture);
     }
   }
 }
@@ -189,6 +190,16 @@ static Pluck pluck_of(const Harp* harp, const HarpChannel* channel, uint32_t vel
 static void stop(Harp* harp, HarpString* string) {
   harp_mixer_hide_end(harp, string);
   harp_group_sleep(string);
+}
+
+/* The wood is pushed by what plays the strings, but for a bow. */
+static void knock(Harp* harp, uint32_t channel, Pluck pluck) {
+  const double hardness = clamp(pluck_played(pluck.hardness, pluck.softness), 0.0, 1.0);
+  const double gain = harp->level.value * harp->channels[channel].gain.value;
+  if (harp->patch.exciter != EXCITER_BOW) {
+    radiator_play(&harp->radiator, harp->rate_hz, hardness,
+                  harp->patch.body.knock * gain * pluck.amplitude);
+  }
 }
 
 static void make_noise(Harp* harp, uint32_t channel, Pluck pluck) {
@@ -238,6 +249,7 @@ void harp_note_on(Harp* harp, uint32_t channel, uint32_t key, uint32_t velocity)
   }
   if (string->voice.is_awake && !string->voice.is_choked) {
     make_noise(harp, channel, own);
+    knock(harp, channel, own);
   }
 }
 
@@ -248,7 +260,7 @@ static void raise_key(Harp* harp, HarpString* string) {
   harp_group_lift(string);
   if (was_leaned_on || string->lift != harp_channels_lift(harp, string) ||
       tie_is_on(&string->voice.tie)) {
-    retune(harp, string, harp->n_gesture);
+    harp_channels_retune(harp, string, harp->n_gesture);
   }
 }
 
@@ -261,7 +273,7 @@ static void hand_on(Harp* harp, HarpString* string) {
   (void)harp_channels_hand(harp, string, channel, false);
   string->touch = harp->channels[channel].touch;
   tune(harp, string);
-  retune(harp, string, harp->n_gesture);
+  harp_channels_retune(harp, string, harp->n_gesture);
 }
 
 /* A channel lets go of the key; the last one to do so lifts it. */
@@ -294,7 +306,7 @@ static void move_dampers(Harp* harp, uint32_t channel) {
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
     HarpString* const string = &harp->strings[i];
     if (string->channel == channel && string->lift != harp_channels_lift(harp, string)) {
-      retune(harp, string, harp->n_gesture);
+      harp_channels_retune(harp, string, harp->n_gesture);
     }
   }
 }
@@ -336,7 +348,7 @@ void harp_press_key(Harp* harp, uint32_t channel, uint32_t key, double pressure)
   HarpString* const string = harp_channels_held(harp, channel, key);
   if (string && string->leaned_on != pressure) {
     string->leaned_on = pressure;
-    retune(harp, string, harp->n_gesture);
+    harp_channels_retune(harp, string, harp->n_gesture);
   }
 }
 
@@ -348,8 +360,19 @@ void harp_breathe(Harp* harp, uint32_t channel, double breath) {
   set_touch(harp, channel, &harp->channels[channel].touch.breath, breath);
 }
 
+/* Whether anything is heard with the channel's gain. */
+static bool is_heard(const Harp* harp, uint32_t channel) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    const HarpString* const string = &harp->strings[i];
+    if (harp_group_is_awake(string) && harp_channels_heard(string) == channel) {
+      return true;
+    }
+  }
+  return harp->noises[channel].is_active;
+}
+
 void harp_set_gain(Harp* harp, uint32_t channel, double gain) {
-  line_to(&harp->channels[channel].gain, gain, harp->n_gesture);
+  line_to(&harp->channels[channel].gain, gain, is_heard(harp, channel) ? harp->n_gesture : 0);
 }
 
 void harp_all_notes_off(Harp* harp, uint32_t channel) {

@@ -44,6 +44,9 @@ void harp_reset(Harp* harp);
    once).  How and where it is plucked, and the most masses, hold from the next pluck on. */
 void harp_set_patch(Harp* harp, const HarpPatch* patch, uint32_t n_frames);
 
+/** What BODIES_FILE is from now on; NULL: no body.  It is copied. */
+void harp_set_body(Harp* harp, const Body* body);
+
 /**
    Tune the keys of a channel anew.  What it has played glides there by a gesture if `is_live`, and
    else keeps its pitch until it is played again; what is at rest is tuned at once.
@@ -107,7 +110,8 @@ void harp_brighten(Harp* harp, uint32_t channel, double brightness);
 /** Share of their strength that bows have, 0 to 1. */
 void harp_breathe(Harp* harp, uint32_t channel, double breath);
 
-/** Gain of all that the channel plays and has played, beside the patch's level, ≥ 0; 1 at first. */
+/** Gain of all that the channel plays and has played, beside the patch's level, ≥ 0; 1 at first.
+ * What sounds gets there in a straight line, the note after silence has it from its first frame. */
 void harp_set_gain(Harp* harp, uint32_t channel, double gain);
 
 /** All keys of a channel up. */

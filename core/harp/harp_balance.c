@@ -1,9 +1,12 @@
 #include "core/harp/harp_balance.h"
 
+#include "core/base/complex_of.h"
 #include "core/base/maths.h"
 #include "core/excite/spectrum.h"
+#include "core/harp/harp_stereo.h"
 #include "core/string/pickup.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -32,9 +35,12 @@ static const double LARGEST_A = 3.999;
 enum { ONE_BY_ONE = 32, RUN = 4 };
 static const double GOLDEN = 0.61803398874989485;
 
+/* Partials whose place between the body's modes matters. */
+enum { MET_BY_MODES = 8 };
+
 /* What turns by an angle from mode to mode: the string's shape, the exciter's two cosines, and the
- * sines at the masses that are read. */
-enum { STRING, EXCITED, TAPPED = 3, MOST_TURNS = TAPPED + 2 };
+ * sines at the masses that are read, and at the one that pulls at the body. */
+enum { STRING, EXCITED, TAPPED = 3, PULLED = TAPPED + 2, MOST_TURNS };
 
 typedef struct {
   double angle[MOST_TURNS];
@@ -49,7 +55,11 @@ typedef struct {
   PickupType pickup_type;
   double weights[2];
   double rate_hz;
-  double both;               /* What both sides have of the square of what is read */
+  double spread;
+  double dry;       /* Gain of what is read */
+  const Body* body; /* NULL: none */
+  BodyShape shape;
+  double wet;                /* Gain of what it is pulled by, with the weight at the string's end */
   const HarpMember* members; /* NULL: one */
   bool is_held;              /* None of them dies */
 } Heard;
@@ -93,9 +103,42 @@ static double square_of_angle(double a) {
   return a * (1.0 + q * (1.0 / 3.0 + q * (8.0 / 45.0)));
 }
 
-static double square_read(const Heard* heard, const double* sines, double a) {
-  const double read = heard->weights[0] * sines[0] + heard->weights[1] * sines[1];
-  return heard->both * read * read * (heard->pickup_type == PICKUP_VELOCITY ? a : 1.0);
+static double read_of(const Heard* heard, const double* sines) {
+  return heard->weights[0] * sines[0] + heard->weights[1] * sines[1];
+}
+
+/* What the pickup reads of a partial and what its body makes of it, which are in step, or not. */
+static double square_met(const Heard* heard, double read, double sine, double hz) {
+  const double angle = 2.0 * PI * hz / heard->rate_hz;
+  const double half = sin(0.5 * angle);
+  const double late = heard->spread > 0.0 ? 2.0 * PI * hz * HARP_STEREO_S : 0.0;
+  const double aside = heard->spread * sin(late);
+  const double complex rate =
+      heard->pickup_type == PICKUP_VELOCITY ? 2.0 * half * complex_of(half, cos(0.5 * angle)) : 1.0;
+  const double complex dry = heard->dry * read * rate * complex_of(cos(late), -sin(late));
+  double complex gain[2];
+  double square = 0.0;
+  body_gain(heard->body, heard->shape, hz, gain);
+  for (int side = 0; side < 2; ++side) {
+    const double complex both =
+        dry * complex_of(1.0, side ? -aside : aside) + heard->wet * sine * gain[side];
+    square += creal(both) * creal(both) + cimag(both) * cimag(both);
+  }
+  return square;
+}
+
+/* Of partial k, on both sides: which of the body's modes the lowest meet is heard. */
+static double
+square_heard(const Heard* heard, uint32_t k, const double* turned, double a, double hz) {
+  const double read = read_of(heard, &turned[TAPPED]);
+  if (heard->body && k <= MET_BY_MODES) {
+    return square_met(heard, read, turned[PULLED], hz);
+  }
+  const double alone = (2.0 + heard->spread * heard->spread) * heard->dry * heard->dry * read *
+                       read * (heard->pickup_type == PICKUP_VELOCITY ? a : 1.0);
+  const double pull = heard->wet * turned[PULLED];
+  return heard->body ? alone + 2.0 * pull * pull * body_power(heard->body, heard->shape, hz)
+                     : alone;
 }
 
 /* And what all members make of a mode that is as loud as `weighed` when it begins. */
@@ -113,10 +156,11 @@ static void add(Power* power, const Heard* heard, uint32_t k, const double* turn
   const double lambda = 2.0 - 2.0 * turned[STRING];
   const Pole mode = {fmin(LARGEST_A, (c->k1 + (c->k2 + c->k3 * lambda) * lambda) * lambda),
                      c->z0 + c->z1 * lambda};
-  const double hz = heard->rate_hz / (2.0 * PI);
+  const double square_hz =
+      heard->rate_hz * heard->rate_hz / (4.0 * PI * PI) * square_of_angle(mode.a);
   const double plain = 0.5 * n * spectrum_square(&heard->spectrum, k, mode, &turned[EXCITED]) *
-                       square_read(heard, &turned[TAPPED], mode.a);
-  const double weighed = plain * k_weight(hz * hz * square_of_angle(mode.a));
+                       square_heard(heard, k, turned, mode.a, sqrt(square_hz));
+  const double weighed = plain * k_weight(square_hz);
   power->plain += plain;
   power->begun += weighed;
   power->whole += weighed * kept(0.5 * mode.g * WINDOW_S * heard->rate_hz);
@@ -191,7 +235,15 @@ set_taps(Heard* heard, Turns* turns, const HarpPatch* patch, const HarpBalance* 
   const double f0_hz = 440.0 * exp2(((double)string->key - 69.0) / 12.0);
   const ChainTap tap = pickup_tap_of_type(patch->pickup_type, string->n_masses, patch->pickup,
                                           2.0 * PI * f0_hz / string->target.rate_hz);
-  heard->both = 2.0 + patch->spread * patch->spread;
+  const double mix = patch->radiates ? patch->body.mix : 0.0;
+  const double force =
+      (double)pickup_tap_of_type(PICKUP_FORCE, string->n_masses, 0.0, 0.0).weight[0];
+  heard->spread = patch->spread;
+  heard->dry = sqrt(1.0 - mix);
+  heard->body = patch->radiates;
+  heard->shape = patch->body.shape;
+  heard->wet = sqrt(mix) * force;
+  turns->angle[PULLED] = turns->angle[STRING];
   for (int i = 0; i < 2; ++i) {
     turns->angle[TAPPED + i] = turns->angle[STRING] * (tap.mass[i] + 1.0);
     heard->weights[i] = (double)tap.weight[i];

@@ -6,6 +6,7 @@
 #include "core/string/chain_numbers.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Motion of the bridge from which on strings wake: some 60 dB less than what moves it. */
 static const double WAKING = 1e-9;
@@ -21,13 +22,14 @@ static const double LEVEL_KEPT = 0.97;
 static const double LIFTED = 0.5;
 
 void harp_bridge_init(HarpBridge* bridge, double rate_hz) {
-  *bridge = (HarpBridge){.bridge = bridge_at(rate_hz), .n_until_grid = HARP_BRIDGE_FRAMES};
+  memset(bridge, 0, sizeof(*bridge));
+  bridge_init(&bridge->bridge, rate_hz);
+  bridge->n_until_grid = HARP_BRIDGE_FRAMES;
 }
 
 /* Nothing moves it any more. */
 static void rest(HarpBridge* bridge) {
-  bridge->bridge.y = 0.0;
-  bridge->bridge.w = 0.0;
+  bridge_rest(&bridge->bridge);
   bridge->loudest = 0.0;
   bridge->level = 0.0;
   bridge->n_until_grid = HARP_BRIDGE_FRAMES;
@@ -200,6 +202,39 @@ static void pass_untouched(Harp* harp, uint32_t n_frames) {
   }
 }
 
+static bool is_tied(const Harp* harp) {
+  bool is_tied = false;
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    const Voice* const voice = &harp->strings[i].voice;
+    is_tied = is_tied || (voice->is_awake && tie_is_on(&voice->tie));
+  }
+  return is_tied;
+}
+
+static void put_on(Harp* harp, RadiatorBody body) {
+  HarpBridge* const bridge = &harp->bridge;
+  if (body.body) {
+    bridge_init_on(&bridge->bridge, body.body, body.shape, harp->rate_hz);
+  } else {
+    bridge_init(&bridge->bridge, harp->rate_hz);
+  }
+  bridge->on = body;
+}
+
+void harp_bridge_move(Harp* harp) {
+  HarpBridge* const bridge = &harp->bridge;
+  const bool was_leaving = bridge->bridge.is_leaving;
+  const RadiatorBody body = radiator_wanted(&harp->radiator, &harp->patch.body);
+  const bool is_there = harp->patch.resonance == 0.0 || radiator_body_is_same(&body, &bridge->on);
+  bridge->bridge.is_leaving = !is_there && is_tied(harp);
+  if (!is_there && !bridge->bridge.is_leaving) {
+    put_on(harp, body);
+  }
+  if (bridge->bridge.is_leaving != was_leaving) {
+    harp_channels_retune_all(harp, harp->n_gesture);
+  }
+}
+
 void harp_bridge_gather(Harp* harp, uint32_t n_tied) {
   if (n_tied == 0 && harp->bridge.n_tied > 0) {
     rest(&harp->bridge);
@@ -325,7 +360,7 @@ void harp_bridge_pass(Harp* harp, uint32_t n_frames) {
 }
 
 void harp_bridge_mend(Harp* harp) {
-  if (!isfinite(harp->bridge.bridge.y) || !isfinite(harp->bridge.bridge.w)) {
+  if (!isfinite(harp->bridge.bridge.y)) {
     rest(&harp->bridge);
   }
 }

@@ -19,6 +19,10 @@
 /** A bridge at rest. */
 void harp_bridge_init(HarpBridge* bridge, double rate_hz);
 
+/** Put it onto the body of the patch: at once where no string is tied; else the strings are let go
+ * first, and tied again after that. */
+void harp_bridge_move(Harp* harp);
+
 /** The first `n_tied` strings that are run are tied. */
 void harp_bridge_gather(Harp* harp, uint32_t n_tied);
 

@@ -102,3 +102,14 @@ double harp_channels_lift(const Harp* harp, const HarpString* string) {
 bool harp_channels_follows(const HarpString* string, uint32_t channel) {
   return string->channel == channel && !string->is_let_go;
 }
+
+void harp_channels_retune(Harp* harp, HarpString* string, uint32_t n_glide) {
+  string->lift = harp_channels_lift(harp, string);
+  harp_group_retune(string, n_glide);
+}
+
+void harp_channels_retune_all(Harp* harp, uint32_t n_glide) {
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    harp_channels_retune(harp, &harp->strings[i], n_glide);
+  }
+}

@@ -44,4 +44,10 @@ double harp_channels_lift(const Harp* harp, const HarpString* string);
 /** Whether a string does what a channel does. */
 bool harp_channels_follows(const HarpString* string, uint32_t channel);
 
+/** Bring a string, and all that follow it, to what it is to be now in `n_glide` frames. */
+void harp_channels_retune(Harp* harp, HarpString* string, uint32_t n_glide);
+
+/** The same of all strings. */
+void harp_channels_retune_all(Harp* harp, uint32_t n_glide);
+
 #endif

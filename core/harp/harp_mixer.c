@@ -17,10 +17,10 @@ static const double DC_HZ = 5.0;
 static const double SILENT_DC_HZ = 100.0;
 static const double LEAST_DC = 1e-7;
 
-/* There is one. */
+/* There is one, and what pulls at the body. */
 static void pickups_of(const Harp* harp, Pickup places[PICKUPS]) {
   places[0] = (Pickup){harp->patch.pickup_type, harp->patch.pickup};
-  places[1] = places[0];
+  places[1] = (Pickup){PICKUP_FORCE, 0.0};
 }
 
 void harp_mixer_place_pickups(Harp* harp) {
@@ -30,8 +30,9 @@ void harp_mixer_place_pickups(Harp* harp) {
 }
 
 /* What is to be read until the pickup changes. */
-static Reading reading_of(const Pickups* pickups) {
-  return pickups_reading(pickups, (const bool[PICKUPS]){true, false});
+static Reading reading_of(const Harp* harp) {
+  const bool is_body = radiator_is_on(&harp->radiator);
+  return pickups_reading(&harp->pickups, (const bool[PICKUPS]){true, is_body});
 }
 
 /* Velocities are weighed as if a key were in its usual tune: weights must not move while it rings.
@@ -165,10 +166,17 @@ static bool are_same(const Reading* a, const Reading* b) {
  */
 static void take_onsets(Harp* harp, const Reading* reading) {
   const bool is_alike = reading->at[0].type == harp->onset_type;
+  const uint32_t n_before = harp->reading.n_heard;
   for (uint32_t bus = 0; bus < HARP_BUSES; ++bus) {
     Onset* const onsets = harp->onsets[bus];
-    onsets[1] = reading->n_taps > 1 ? onsets[0] : (Onset){0};
-    onsets[0] = is_alike ? onsets[0] : (Onset){0};
+    Onset kept[PICKUPS] = {onsets[0], n_before > 1 ? onsets[1] : (Onset){0}};
+    memset(onsets, 0, CHAIN_MAX_TAPS * sizeof(Onset));
+    for (uint32_t t = 0; t < reading->n_heard; ++t) {
+      onsets[t] = t > 0 || is_alike ? kept[t] : (Onset){0};
+      if (reading->is_fading) {
+        onsets[t + reading->n_heard] = kept[t];
+      }
+    }
   }
 }
 
@@ -196,13 +204,16 @@ static void outputs_of(Harp* harp, uint32_t bus, uint32_t from, uint32_t n_taps,
   }
 }
 
-/* Fade from the old pickup, and set the level. */
-static void mix_down(Harp* harp, const Reading* reading, uint32_t n_frames, float* read) {
+/* Fade from the old pickup, and set the level of what is read and of what pulls at the body. */
+static void
+mix_down(Harp* harp, const Reading* reading, uint32_t n_frames, float* read, float* pull) {
   float* mix[CHAIN_MAX_TAPS];
   outputs_of(harp, 0, 0, reading->n_taps, mix);
   pickups_cross(&harp->pickups, reading, n_frames, mix);
   for (uint32_t n = 0; n < n_frames; ++n) {
-    read[n] = (float)line_next(&harp->level) * mix[0][n];
+    const float level = (float)line_next(&harp->level);
+    read[n] = level * mix[0][n];
+    pull[n] = reading->n_heard > 1 ? level * mix[1][n] : 0.0f;
   }
 }
 
@@ -232,6 +243,7 @@ static void block_dc(Harp* harp, uint32_t n_frames, float* read) {
  * ramps. */
 static uint32_t stretch(const Harp* harp, uint32_t n_frames) {
   uint32_t n = least(least(n_frames, HARP_MIX_FRAMES), pickups_stretch(&harp->pickups));
+  n = least(n, radiator_stretch(&harp->radiator));
   for (uint32_t channel = 0; channel < HARP_CHANNELS; ++channel) {
     const uint32_t n_left = harp->channels[channel].gain.n_left;
     n = n_left > 0 ? least(n, n_left) : n;
@@ -380,7 +392,8 @@ static void mend(Harp* harp, uint32_t n_parts, uint32_t heard, uint32_t n_frames
 
 /* Run as many of `n_frames` as can be run in one go; how many they were. */
 static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* right) {
-  const Reading reading = reading_of(&harp->pickups);
+  float pull[HARP_MIX_FRAMES];
+  const Reading reading = reading_of(harp);
   const uint32_t n_parts = gather(harp, &reading);
   const uint32_t n_most = harp_bridge_stretch(harp, stretch(harp, n_frames));
   take_reading(harp, &reading, n_parts);
@@ -393,9 +406,10 @@ static uint32_t run_stretch(Harp* harp, uint32_t n_frames, float* left, float* r
   }
   add_buses(harp, heard, &reading, n);
   harp_bridge_pass(harp, n);
-  mix_down(harp, &reading, n, left);
+  mix_down(harp, &reading, n, left, pull);
   block_dc(harp, n, left);
   harp_stereo_run(&harp->stereo, left, n, left, right);
+  radiator_run(&harp->radiator, pull, n, left, right);
   return n;
 }
 
@@ -409,7 +423,7 @@ read_string(const HarpString* string, const ChainTap* tap, float (*of)(const Cha
 
 /* Hide that what is read of a string steps: by what it reads now, or the other way round. */
 static void hide(Harp* harp, uint32_t bus, const HarpString* string, double sign) {
-  const Reading reading = reading_of(&harp->pickups);
+  const Reading reading = reading_of(harp);
   for (uint32_t t = 0; t < reading.n_taps; ++t) {
     const ChainTap tap = voice_tap(&string->voice, &reading.at[t], angle_of(harp, string));
     const double x = sign * read_string(string, &tap, chain_position);
@@ -426,7 +440,7 @@ static void hide(Harp* harp, uint32_t bus, const HarpString* string, double sign
 
 /* What was read before must be known, or there would be nothing to take a step from. */
 static void listen(Harp* harp) {
-  const Reading reading = reading_of(&harp->pickups);
+  const Reading reading = reading_of(harp);
   if (!are_same(&reading, &harp->reading)) {
     take_reading(harp, &reading, gather(harp, &reading));
   }
@@ -459,6 +473,8 @@ void harp_mixer_run(Harp* harp, uint32_t n_frames, float* left, float* right) {
     Pickup places[PICKUPS];
     pickups_of(harp, places);
     pickups_move(&harp->pickups, places, harp->n_fade);
+    radiator_set(&harp->radiator, &harp->patch.body, harp->rate_hz, harp->n_fade);
+    harp_bridge_move(harp);
     done += run_stretch(harp, n_frames - done, left + done, right + done);
   }
 }

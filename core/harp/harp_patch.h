@@ -2,6 +2,7 @@
 #ifndef HOOKE_CORE_HARP_HARP_PATCH_H
 #define HOOKE_CORE_HARP_HARP_PATCH_H
 
+#include "core/bank/bodies.h"
 #include "core/excite/exciter.h"
 #include "core/excite/variation.h"
 #include "core/voice/pickups.h"
@@ -27,6 +28,8 @@ typedef struct {
   double second;        /**< Amplitude of a string's second direction over the first's, 0 to 1 */
   double second_detune; /**< From the first direction to the second [cents], ≥ 0 */
   double second_decay;  /**< τ of the second direction over the first's, > 0 */
+  BodyPatch body;       /**< What radiates, and what the bridge is on */
+  const Body* radiates; /**< What that chooses, seen to by the harp itself; NULL: none */
 } HarpPatch;
 
 #endif

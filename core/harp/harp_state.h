@@ -11,6 +11,7 @@
 #include "core/string/chain.h"
 #include "core/voice/bridge.h"
 #include "core/voice/onset.h"
+#include "core/voice/radiator.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -64,6 +65,7 @@ typedef struct {
 /** Zero moves nothing. */
 typedef struct {
   Bridge bridge;
+  RadiatorBody on;       /**< What it is on */
   uint32_t n_tied;       /**< Strings that are tied: the first of those that are run */
   uint32_t n_until_grid; /**< Frames until the next place of the grid */
   uint32_t next_key;     /**< Which is asked next whether it is to wake */
@@ -99,6 +101,7 @@ typedef struct Harp {
   ChainPart parts[HARP_VOICES];                       /**< Their chains, and where they are read */
   HarpBridge bridge;
   HarpStereo stereo;
+  Radiator radiator;
   NoiseMake noise_make;
   Noise noises[HARP_CHANNELS]; /**< What fingers and hammers of each make themselves */
   bool is_bowed;               /**< Whether a note has been bowed since all was still */

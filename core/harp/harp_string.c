@@ -51,8 +51,10 @@ static BridgeHold hold_of(const HarpString* string, double f0_hz) {
   const double resonance = string->patch->resonance;
   const double mass = bridge_mass(440.0 * exp2(((double)string->key - 69.0) / 12.0));
   const double lever = resonance * resonance * string->lift;
-  return resonance > 0.0 ? (BridgeHold){mass, lever * sqrt(fmin(1.0, bridge_mass(f0_hz) / mass))}
-                         : (BridgeHold){0};
+  const Bridge* const bridge = string->voice.bridge; /* What follows a string has none. */
+  const bool is_held = resonance > 0.0 && bridge && !bridge->is_leaving;
+  return is_held ? (BridgeHold){mass, lever * sqrt(fmin(1.0, bridge_mass(f0_hz) / mass))}
+                 : (BridgeHold){0};
 }
 
 /* What it is to be at a pitch.  Its damper, lifted in part, takes it by the same share of the way

@@ -19,12 +19,20 @@ static void arrive(Chain* chain) {
   chain->kept = 1.0;
 }
 
+/* In fixed point u = gain (U + (ρ − 1) X)/ρ. */
 static ChainReader reader_of(const Chain* chain, ChainTap tap) {
-  return (ChainReader){
-      .offset = {chain_numbers_offset(chain, tap.mass[0]),
-                 chain_numbers_offset(chain, tap.mass[1])},
+  const size_t of_u = tap.is_velocity ? chain->loops->n_lanes : 0;
+  ChainReader reader = {
+      .offset = {chain_numbers_offset(chain, tap.mass[0]) + of_u,
+                 chain_numbers_offset(chain, tap.mass[1]) + of_u},
       .weight = {tap.weight[0], tap.weight[1]},
   };
+  if (tap.is_velocity && chain->numbers == CHAIN_FIXED) {
+    reader.weight[0] = (float)((double)tap.weight[0] / chain->fade);
+    reader.weight[1] = (float)((double)tap.weight[1] / chain->fade);
+    reader.lean = (float)(chain->fade - 1.0);
+  }
+  return reader;
 }
 
 /* Where the dampers of a string sit that stands still. */
@@ -36,9 +44,13 @@ static ChainElasticity elasticity_of(StringCoefs c) {
   return c.k3 != 0.0 ? CHAIN_STRAIGHTENED : c.k2 != 0.0 ? CHAIN_BENDING : CHAIN_FLEXIBLE;
 }
 
+uint32_t chain_taps(uint32_t n_taps) {
+  return n_taps <= 2 ? n_taps : n_taps <= 4 ? 4 : 6;
+}
+
 ChainLoop chain_loop(const Chain* chain, uint32_t n_taps) {
   const bool is_moving = chain->n_gliding > 0;
-  ChainDamping damping = damping_of(chain->now);
+  ChainDamping damping = n_taps > 4 ? CHAIN_BETWEEN : damping_of(chain->now);
   ChainElasticity elasticity = elasticity_of(chain->now);
   if (is_moving) {
     const ChainElasticity to = elasticity_of(chain->goal);

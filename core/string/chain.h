@@ -41,11 +41,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/** A place where the chain is read: weight[0] x[mass[0]] + weight[1] x[mass[1]]; masses count from
- * 0. */
+/** A place where the chain is read: weight[0] x[mass[0]] + weight[1] x[mass[1]], or the same of u;
+ * masses count from 0. */
 typedef struct {
   uint32_t mass[2];
   float weight[2];
+  bool is_velocity; /**< Whether u is read, how far x has come in the last step */
 } ChainTap;
 
 /** A string; zero is one without masses. */
@@ -137,12 +138,15 @@ double chain_energy(const Chain* chain);
 */
 double chain_amplitude(const Chain* chain, double a1);
 
+/** The fewest taps, at least `n_taps` of 1 to CHAIN_MAX_TAPS, that there are loops for. */
+uint32_t chain_taps(uint32_t n_taps);
+
 /**
    Step the chain `n_frames` times, and after each step add what each tap reads to its output.
 
    The way in which n_frames are cut into calls does not change a bit of it.
 
-   @param n_taps  1, 2 or CHAIN_MAX_TAPS
+   @param n_taps  1, 2, 4 or CHAIN_MAX_TAPS, see chain_taps()
    @param out     n_taps buffers of n_frames
 */
 void chain_run(

@@ -14,7 +14,7 @@
 
 enum {
   CHAIN_MAX_MASSES = 1024,
-  CHAIN_MAX_TAPS = 4,
+  CHAIN_MAX_TAPS = 6,
   CHAIN_MAX_LANES = 8,
   CHAIN_LEAST_CELLS = 3, /**< That a string is laid over, so that no end is its own neighbour */
   CHAIN_MAX_BATCH = 4,   /**< Strings that are stepped together */
@@ -49,6 +49,7 @@ typedef enum {
 typedef struct {
   size_t offset[2];
   float weight[2];
+  float lean; /**< CHAIN_FIXED: what a velocity has of its position; else 0 */
 } ChainReader;
 
 /** A string for a loop to step; see Chain. */
@@ -106,7 +107,8 @@ typedef struct {
   /** CHAIN_FIXED: from floats in the same cells and back; NULL elsewhere.  See ChainWork. */
   void (*take)(void* cells, uint32_t n_cells, double gain, double fade);
   void (*give)(void* cells, uint32_t n_cells, double gain, double fade);
-  /** NULL where taps are not 1, 2 or 4, and for moving strings in fixed point */
+  /** NULL where taps are not 1, 2, 4 or 6, or 6 without all dampers, and for moving strings in
+   * fixed point */
   ChainLoop loops[N_CHAIN_DAMPINGS][N_CHAIN_ELASTICITIES][2][CHAIN_MAX_TAPS + 1];
 } ChainLoops;
 
@@ -125,6 +127,12 @@ typedef struct {
   X(damping, elasticity, is_moving, 2)                                                             \
   X(damping, elasticity, is_moving, 4)
 
+/** Six are read for a moment alone, while pickups fade beside a body: with all dampers. */
+#define CHAIN_SCENES_OF_SIX(X, is_moving)                                                          \
+  X(BETWEEN, FLEXIBLE, is_moving, 6)                                                               \
+  X(BETWEEN, BENDING, is_moving, 6)                                                                \
+  X(BETWEEN, STRAIGHTENED, is_moving, 6)
+
 /** Those whose coefficients stand still. */
 #define CHAIN_STILL_SCENES(X)                                                                      \
   CHAIN_SCENES_OF(X, UNDAMPED, FLEXIBLE, 0)                                                        \
@@ -135,13 +143,15 @@ typedef struct {
   CHAIN_SCENES_OF(X, GROUND, STRAIGHTENED, 0)                                                      \
   CHAIN_SCENES_OF(X, BETWEEN, FLEXIBLE, 0)                                                         \
   CHAIN_SCENES_OF(X, BETWEEN, BENDING, 0)                                                          \
-  CHAIN_SCENES_OF(X, BETWEEN, STRAIGHTENED, 0)
+  CHAIN_SCENES_OF(X, BETWEEN, STRAIGHTENED, 0)                                                     \
+  CHAIN_SCENES_OF_SIX(X, 0)
 
 /** Those whose coefficients move, with all dampers, for a glide may begin or end without. */
 #define CHAIN_MOVING_SCENES(X)                                                                     \
   CHAIN_SCENES_OF(X, BETWEEN, FLEXIBLE, 1)                                                         \
   CHAIN_SCENES_OF(X, BETWEEN, BENDING, 1)                                                          \
-  CHAIN_SCENES_OF(X, BETWEEN, STRAIGHTENED, 1)
+  CHAIN_SCENES_OF(X, BETWEEN, STRAIGHTENED, 1)                                                     \
+  CHAIN_SCENES_OF_SIX(X, 1)
 
 /** Vectors of 16 bytes: what every processor that has vectors has. */
 extern const ChainLoops chain_loops_float4;

@@ -85,9 +85,16 @@ INLINE void go_on(Strand* strand, const ChainWork* work) {
   strand->wide = to;
 }
 
+/* Of a velocity in fixed point, what is before it in its cell is read, too: its position. */
 INLINE float read_tap(const Number* numbers, const ChainReader* reader) {
-  return (float)((Real)reader->weight[0] * (Real)numbers[reader->offset[0]] +
-                 (Real)reader->weight[1] * (Real)numbers[reader->offset[1]]);
+  const float read = (float)((Real)reader->weight[0] * (Real)numbers[reader->offset[0]] +
+                             (Real)reader->weight[1] * (Real)numbers[reader->offset[1]]);
+  if (CHAIN_LOOP_IS_FIXED && reader->lean != 0.0f) {
+    const float x0 = (float)numbers[reader->offset[0] - CHAIN_LOOP_LANES];
+    const float x1 = (float)numbers[reader->offset[1] - CHAIN_LOOP_LANES];
+    return read + reader->lean * (reader->weight[0] * x0 + reader->weight[1] * x1);
+  }
+  return read;
 }
 
 INLINE Strand strand_of(const ChainWork* work) {

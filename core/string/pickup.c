@@ -36,6 +36,9 @@ ChainTap pickup_tap_of_type(PickupType type, uint32_t n_masses, double place, do
     tap = (ChainTap){.weight = {(float)(FORCE_GAIN * (n_masses + 1.0) / PI), 0.0f}};
     break;
   }
+  case PICKUP_MAGNET:
+    tap.is_velocity = true;
+    break;
   }
   return tap;
 }

@@ -13,7 +13,8 @@ typedef enum {
   PICKUP_DISPLACEMENT, /**< How far it is from rest */
   PICKUP_VELOCITY, /**< How fast it moves, as a magnet with a coil does: brighter by 6 dB an octave
                     */
-  PICKUP_FORCE     /**< How it pulls at the bridge, as a piezo does; wherever the pickup is */
+  PICKUP_FORCE,    /**< How it pulls at the bridge, as a piezo does; wherever the pickup is */
+  PICKUP_MAGNET    /**< Velocity as it is [per frame], for who weighs each string by itself */
 } PickupType;
 
 /**
@@ -29,7 +30,7 @@ ChainTap pickup_tap(uint32_t n_masses, double place);
    The tap for a type of pickup.  That of velocity reads x/(2 sin(ω/2)), which is to be
    differentiated, a sample less the one before, and that of force reads (N + 1)/π times the mass at
    the end at place 0: so the fundamental would be as large as in the displacement.  Both are
-   weakened by as much as their upper partials make them louder.
+   weakened by as much as their upper partials make them louder.  That of a magnet reads u.
 
    @param angle1  ω, the fundamental's digital angular frequency [rad per sample], > 0
 */

@@ -21,14 +21,28 @@ static const double MASS_HALVED_AGAIN_HZ = 1500.0;
 /* The share of a string's dampers to the ground that stays, whatever the bridge takes. */
 static const double LEAST_GROUND = 0.5;
 
+/* The largest of |ε'/D_1'|, the share of its motion that is the body's, where the pole is wanted
+ * and where it comes to.  Where a string is at one mode, twice their coupling is then four fifths
+ * of what the mode dies faster by: they stay two poles at one pitch, and the string's has a fifth
+ * of that. */
+static const double MOST_SHARED = 0.16;
+static const double MOST_SHARED_AT_LAST = 0.25;
+
+/* The largest of |ε|/a_1, some 80 cents. */
+static const double MOST_MOVED = 0.1;
+
 /* Each round makes what is left of the error smaller by the share that the bridge has in the sound,
- * 1 in 1000 of the pitch; so one that has moved it but so far has been the last. */
+ * 1 in 1000 of the pitch where no mode is near; so one that has moved it but so far has been the
+ * last. */
 static const double NEAR = 1e-7;
 static const double NEAR_DAMPING = 1e-4;
-enum { MOST_ROUNDS = 5 };
+enum { MOST_ROUNDS = 12 };
 
 /* A pole, and what D is made of there. */
 typedef struct {
+  double radius;
+  double complex z;
+  double complex back;  /* 1/z */
   double complex base;  /* z − 2 + 1/z */
   double complex slope; /* 1 − 1/z */
 } Place;
@@ -36,12 +50,23 @@ typedef struct {
 static Place place_of(double radius, double angle) {
   const double complex z = complex_of(radius * cos(angle), radius * sin(angle));
   const double complex back = complex_of(cos(angle) / radius, -sin(angle) / radius);
-  return (Place){z - 2.0 + back, 1.0 - back};
+  return (Place){radius, z, back, z - 2.0 + back, 1.0 - back};
 }
 
 static double complex d_of(const Place* place, Pole pole) {
   return place->base + pole.a + pole.g * place->slope;
 }
+
+/* dD/dz */
+static double complex d_slope(const Place* place, double g) {
+  return 1.0 - (1.0 - g) * place->back * place->back;
+}
+
+/* A function of z at a place. */
+typedef struct {
+  double complex value;
+  double complex slope; /* Its derivative */
+} Local;
 
 /* 1/d without the care for infinities that makes C's division slow. */
 static double complex inverse(double complex d) {
@@ -102,12 +127,13 @@ static Sums sum_modes(StringCoefs coefs, uint32_t n_masses, const Place* place) 
   }
 }
 
-static BridgeTie tie_of(const Sums* sums, StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {
+static BridgeTie tie_of(
+    const Bridge* bridge, const Sums* sums, StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {
   const double weight = hold.mass / (n_masses + 1.0);
   const double pull = hold.lever * coefs.k1;
   const double strength = weight * pull * pull;
   const double load = strength * (sums->slow + sums->fast);
-  const double kept = fmin(1.0, BRIDGE_MOST_LOAD / load);
+  const double kept = fmin(1.0, BRIDGE_MOST_LOAD / (load * bridge->give));
   return (BridgeTie){
       .weight = weight,
       .pull = sqrt(kept) * pull,
@@ -116,48 +142,96 @@ static BridgeTie tie_of(const Sums* sums, StringCoefs coefs, uint32_t n_masses, 
   };
 }
 
-/* ε of a string's fundamental. */
-static double complex pull_of_bridge(const Bridge* bridge,
-                                     StringCoefs coefs,
-                                     uint32_t n_masses,
-                                     BridgeHold hold,
-                                     const Place* place) {
+/* S */
+static Local give_at(const Bridge* bridge, const Place* place) {
+  const Bank* const bank = &bridge->bank;
+  Local sum = {0};
+  for (uint32_t i = 0; i < bank->n_added; ++i) {
+    const double complex one = inverse(d_of(place, (Pole){bank->a[i], bank->g[i]}));
+    sum.value += bank->in[i] * one;
+    sum.slope -= bank->in[i] * d_slope(place, bank->g[i]) * (one * one);
+  }
+  return sum;
+}
+
+/* ε of a string's fundamental, in whose slope only the body counts: all else changes slowly. */
+static Local pull_of_bridge(const Bridge* bridge,
+                            StringCoefs coefs,
+                            uint32_t n_masses,
+                            BridgeHold hold,
+                            const Place* place,
+                            const Local* give) {
   const Sums sums = sum_modes(coefs, n_masses, place);
-  const BridgeTie tie = tie_of(&sums, coefs, n_masses, hold);
+  const BridgeTie tie = tie_of(bridge, &sums, coefs, n_masses, hold);
   const double strength = tie.weight * tie.pull * tie.pull;
-  const double complex bare = d_of(place, bridge->bare);
-  return strength * sums.first * inverse(bare + tie.spring - strength * sums.rest);
+  const double complex loose =
+      inverse(1.0 + give->value * (tie.spring - strength * sums.rest)); /* Over S */
+  return (Local){strength * sums.first * give->value * loose,
+                 strength * sums.first * give->slope * (loose * loose)};
+}
+
+/* What a string may keep of its pull and stay itself, and in tune, whatever mode it is at. */
+static double kept_of(const Local* pull, const Place* place, Pole own, double most_shared) {
+  const double shared = cabs(pull->slope) / (most_shared * cabs(d_slope(place, own.g)));
+  const double moved = cabs(pull->value) / (MOST_MOVED * own.a);
+  return 1.0 / fmax(1.0, fmax(shared, moved));
 }
 
 /* The sound that is wanted of the two, and what was asked of the string alone for it. */
 typedef struct {
   double angle;
-  double radius;
+  double wanted; /* Radius */
+  double radius; /* What it comes to */
   double least;  /* g down to which the string may go */
-  bool is_short; /* Whether the bridge takes more than that */
 } Wish;
 
 /*
   The string's own fundamental, of which ε makes what is wanted: where that leaves it too few
-  dampers, g is the least, and the radius is what it comes to, r² − r Im ε/sin θ − (1 − g) = 0.
+  dampers, g is the least, and the radius is what it comes to, by a step of Newton's.
 */
-static Pole own_pole(Wish* wish, double complex pull) {
-  Place place = place_of(wish->radius, wish->angle);
-  Pole own = {.g = cimag(pull - place.base) / cimag(place.slope)};
-  wish->is_short = wish->is_short || own.g < wish->least;
-  if (wish->is_short) {
-    const double extra = cimag(pull) / sin(wish->angle);
-    own.g = wish->least;
-    wish->radius = 0.5 * (extra + sqrt(extra * extra + 4.0 * (1.0 - own.g)));
-    place = place_of(wish->radius, wish->angle);
+static Pole own_pole(Wish* wish, const Place* place, const Local* pull) {
+  const double complex left = pull->value - place->base;
+  Pole own = {.g = cimag(left) / cimag(place->slope)};
+  if (wish->radius == wish->wanted && own.g >= wish->least) {
+    own.a = creal(left) - own.g * creal(place->slope);
+    return own;
   }
-  own.a = creal(pull - place.base) - own.g * creal(place.slope);
+  own.g = wish->least;
+  const double complex missing = left - own.g * place->slope;
+  const double complex rate = (pull->slope - d_slope(place, own.g)) * place->z;
+  const double change = -cimag(missing) / cimag(rate);
+  wish->radius = fmin(wish->radius * (1.0 + change), wish->wanted);
+  own.a = creal(missing + change * rate);
   return own;
 }
 
-Bridge bridge_at(double rate_hz) {
+/* Its modes are there. */
+static void settle(Bridge* bridge) {
+  const Bank* const bank = &bridge->bank;
+  bridge->y = 0.0;
+  bridge->is_leaving = false;
+  bridge->give = 0.0;
+  for (uint32_t i = 0; i < bank->n_added; ++i) {
+    bridge->give += bank->in[i] / (4.0 - 2.0 * bank->g[i] - bank->a[i]);
+  }
+}
+
+void bridge_init(Bridge* bridge, double rate_hz) {
   const double angle = fmin(2.0 * PI * BRIDGE_HZ / rate_hz, MOST_BRIDGE_ANGLE);
-  return (Bridge){.bare = {.a = angle * angle, .g = 2.0 * BRIDGE_ZETA * angle}};
+  bank_clear(&bridge->bank);
+  bank_add(&bridge->bank,
+           (BankMode){.pole = {.a = angle * angle, .g = 2.0 * BRIDGE_ZETA * angle}, .in = 1.0});
+  settle(bridge);
+}
+
+void bridge_init_on(Bridge* bridge, const Body* body, BodyShape shape, double rate_hz) {
+  body_bank(body, shape, rate_hz, &bridge->bank);
+  settle(bridge);
+}
+
+void bridge_rest(Bridge* bridge) {
+  bank_rest(&bridge->bank);
+  bridge->y = 0.0;
 }
 
 double bridge_mass(double f0_hz) {
@@ -165,13 +239,13 @@ double bridge_mass(double f0_hz) {
   return MOST_MASS / ((1.0 + f0_hz / MASS_HALVED_HZ) * (1.0 + high * high));
 }
 
-BridgeTie bridge_tie(StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {
+BridgeTie bridge_tie(const Bridge* bridge, StringCoefs coefs, uint32_t n_masses, BridgeHold hold) {
   const Sums sums = sum_modes(coefs, n_masses, NULL);
-  return tie_of(&sums, coefs, n_masses, hold);
+  return tie_of(bridge, &sums, coefs, n_masses, hold);
 }
 
 double bridge_headroom(const Bridge* bridge, double load) {
-  return 1.0 - 0.25 * (bridge->bare.a + 2.0 * bridge->bare.g + load);
+  return 1.0 - bridge->give * load;
 }
 
 /* What to ask of the string for its fundamental to have a pole; what sits between the masses stays.
@@ -194,18 +268,22 @@ static Pole guess(const TuningTarget* target, double g, const BridgeShift* shift
 TuningTarget bridge_correct(const Bridge* bridge,
                             TuningTarget target,
                             uint32_t n_masses,
-                            BridgeHold hold,
+                            BridgeHold* hold,
                             BridgeShift* shift) {
   const double step_s = 1.0 / target.rate_hz;
   const double g = -expm1(-2.0 * step_s / target.tone.tau_s);
+  const double wanted = sqrt(1.0 - g);
   Wish wish = {
       .angle = 2.0 * PI * target.tone.f0_hz * step_s,
-      .radius = sqrt(1.0 - g),
+      .wanted = wanted,
+      .radius = wanted,
       .least = g * (target.loss + LEAST_GROUND * (1.0 - target.loss)),
   };
-  if (!(hold.mass * hold.lever > 0.0)) {
+  if (!(hold->mass * hold->lever > 0.0) || bridge->bank.n_added == 0) {
     return target;
   }
+  Place place = place_of(wish.radius, wish.angle);
+  Local give = give_at(bridge, &place);
   Pole own = guess(&target, g, shift);
   for (int round = 0; round < MOST_ROUNDS; ++round) {
     const TuningTarget asked = ask(target, g, own);
@@ -214,16 +292,28 @@ TuningTarget bridge_correct(const Bridge* bridge,
     if (tuning_fit(&asked, n_masses, &coefs)) {
       return target;
     }
-    const Place place = place_of(wish.radius, wish.angle);
-    own = own_pole(&wish, pull_of_bridge(bridge, coefs, n_masses, hold, &place));
+    if (place.radius != wish.radius) {
+      place = place_of(wish.radius, wish.angle);
+      give = give_at(bridge, &place);
+    }
+    Local pull = pull_of_bridge(bridge, coefs, n_masses, *hold, &place, &give);
+    const double kept = kept_of(&pull, &place, own, round == 0 ? MOST_SHARED : MOST_SHARED_AT_LAST);
+    pull = (Local){kept * pull.value, kept * pull.slope};
+    hold->lever *= sqrt(kept);
+    own = own_pole(&wish, &place, &pull);
     if (!pole_is_complex(own)) {
       return target;
     }
-    if (fabs(own.a - before.a) <= NEAR * own.a && fabs(own.g - before.g) <= NEAR_DAMPING * g) {
+    if (fabs(own.a - before.a) <= NEAR * own.a && fabs(own.g - before.g) <= NEAR_DAMPING * g &&
+        fabs(wish.radius - place.radius) <= NEAR_DAMPING * g) {
       break;
     }
   }
   const TuningTarget asked = ask(target, g, own);
   *shift = (BridgeShift){asked.tone.f0_hz / target.tone.f0_hz, g > 0.0 ? own.g / g : 1.0};
   return asked;
+}
+
+void bridge_step(Bridge* bridge, double force, double spring) {
+  bridge->y = bank_push(&bridge->bank, force - spring * bridge->y);
 }

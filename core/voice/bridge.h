@@ -1,43 +1,52 @@
 /**
-   The bridge: one mass on a spring and a damper that the far ends of many strings pull at, so that
-   a string which nobody plays answers one that is played.
+   The bridge: a place on a body (core/bank/body.h), or on one mass with a spring and a damper, that
+   the far ends of many strings pull at, so that a string which nobody plays answers one that is
+   played, and that all answer the body.
 
    String j has N masses, the one that is nearest to the bridge being its last, e, and pulls at it
    by its last link.  With a lever ρ, 0 to 1, between the two, p = ρ k1 and a mass of the string's
-   that is r = q/(N + 1) of the bridge's (q: the whole string's), one step of the whole is, all from
-   the state before it,
+   that is r = q/(N + 1) of 1 kg (q: the whole string's), one step of the whole is, all from the
+   state before it,
 
        u_j ← (the string's own step) + e p_j y,
-       w ← w + Σ_j r_j p_j eᵀx_j − (a + Σ_j s_j) y − g w ;   y ← y + w.
+       f = Σ_j r_j p_j eᵀx_j − y Σ_j s_j,
+       w_i ← w_i + f/M_i − a_i y_i − g_i w_i ;   y_i ← y_i + w_i ;   y = Σ_i y_i.
 
-   y is the bridge's displacement times the lever, w its scaled velocity, a and g those of the bare
-   bridge (core/string/pole.h).  At ρ = 0 there is no bridge.
+   y is the bridge's displacement times the lever, y_i what mode i of the body has in it and w_i how
+   fast that goes, a_i, g_i and M_i [kg] what the mode is.  At ρ = 0 there is no bridge.
 
-   Spring.  s is what the string adds to the bridge's spring.  A taut string pulls its ends back,
-   high ones so much that the bridge would be another for each of them that begins or ends to sound.
-   So that pull is taken to be part of a: with C = eᵀK⁻¹e, how far a pull of 1 displaces the last
+   Spring.  s is what the string adds to the bridge's springs.  A taut string pulls its ends back,
+   high ones so much that the body would be another for each of them that begins or ends to sound.
+   So that pull is taken to be part of it: with C = eᵀK⁻¹e, how far a pull of 1 displaces the last
    mass,
 
        s = r p² C,
 
-   and the bridge with its strings at rest has the same stiffness a, whichever they are.
+   and the body with its strings at rest is as stiff as alone, whichever they are.
 
    Stability.  The matrix of all springs, each string's weighed by its r, is a sum of parts, one a
-   string, with Schur complement s − r p² C = 0, and the bridge's own a: so it is positive where the
-   strings' are.  At the other end, 4 − 2Z − K, the complement of the whole is
+   string, with Schur complement s − r p² C = 0, and the body's own: so it is positive where the
+   strings' are.  At the other end, 4 − 2Z − K, completing the squares of all strings and then of
+   the modes leaves
 
-       4 − a − 2g − Σ_j load_j,   load = s + r p² eᵀ(4 − 2Z − K)⁻¹e,
+       1 − B Σ_j load_j,   load = s + r p² eᵀ(4 − 2Z − K)⁻¹e,   B = Σ_i 1/(M_i (4 − 2g_i − a_i)),
 
    so the whole is stable iff each string is and that is not negative: bridge_headroom().  Both hold
    of every mixture of two that are stable, so p, s and the coefficients may glide from one to the
    other in straight lines.
 
    Pitch.  With D(z) = z − 2 + 1/z + a + g (1 − 1/z), modes k of the string, φ_k² = (2/(N + 1))
-   sin²(kπ/(N + 1)) and D_b that of the bridge with one string's spring, a pole of the two is where
+   sin²(kπ/(N + 1)) and S(z) = Σ_i 1/(M_i D_i(z)) of the body, a pole of the two is where
 
-       D_1(z) = ε(z) = r p² φ_1² / (D_b(z) − r p² Σ_{k ≥ 2} φ_k²/D_k(z)),
+       D_1(z) = ε(z) = r p² φ_1² / (1/S(z) + s − r p² Σ_{k ≥ 2} φ_k²/D_k(z)),
 
    that is a1 + g1 (1 − 1/z) = ε − z + 2 − 1/z, which gives a1 and g1 for the z that is wanted.
+
+   Wolves.  Where a mode of the body is at the string's pitch and the two exchange their motion
+   faster than the mode loses it, there is no string at that pitch: they are two poles to both sides
+   of it, and no a1 and g1 bring one back.  So a string near a mode has as short a lever as leaves
+   it the pole: at most an ε' that is a quarter of D_1', and an ε that is a tenth of a1.  In
+   between, it dies sooner.
 
    Thread: any.  All of this room is real-time safe and allocates nothing; what sums over modes
    takes a time that grows with the masses.
@@ -45,41 +54,50 @@
 #ifndef HOOKE_CORE_VOICE_BRIDGE_H
 #define HOOKE_CORE_VOICE_BRIDGE_H
 
+#include "core/bank/body.h"
 #include "core/string/tuning.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /**
-   The most that one string may take of the bridge's stability limit; with 128 of them a tenth of
-   the limit is left at any rate.  What would take more, which is a string so near half the rate
-   that it has a mass or two, has a shorter lever.
+   The most that one string may take of the stability limit, load B; with 160 of them a fifth of it
+   is left.  What would take more, which is a string so near half the rate that it has a mass or
+   two, has a shorter lever.
 */
-#define BRIDGE_MOST_LOAD 0.02
+#define BRIDGE_MOST_LOAD 0.005
 
-/** The bridge and how it moves; zero is a free mass at rest. */
+/** The bridge and how it moves; zero does not move. */
 typedef struct {
-  Pole bare; /**< Without strings */
-  double y;  /**< Displacement, times the lever */
-  double w;  /**< Scaled velocity h dy/dt */
+  Bank bank;       /**< The modes of what it is on */
+  double y;        /**< Displacement, times the lever */
+  double give;     /**< B */
+  bool is_leaving; /**< It will be on something else once no string is tied: none may be */
 } Bridge;
 
 /** How a string is tied to the bridge; zero is not at all. */
 typedef struct {
-  double weight; /**< r: a mass of the string's over the bridge's */
+  double weight; /**< r: a mass of the string's [kg] */
   double pull;   /**< p: on the last mass, for y = 1 */
   double spring; /**< s: what it adds to the bridge's spring */
-  double load;   /**< What it takes of the stability limit */
+  double load;   /**< What it takes of the stability limit, over B */
 } BridgeTie;
 
 /** What makes a tie. */
 typedef struct {
-  double mass;  /**< q: the whole string's, over the bridge's, ≥ 0 */
+  double mass;  /**< q: the whole string's [kg], ≥ 0 */
   double lever; /**< ρ, 0 to 1 */
 } BridgeHold;
 
-/** The bridge of the harp at rest: 60 Hz, half the critical damping; at rates below 960 Hz, a
- * sixteenth of the rate.  `rate_hz` > 0 [Hz]. */
-Bridge bridge_at(double rate_hz);
+/** The bridge of a harp without a body, at rest: 1 kg at 60 Hz, half the critical damping; at rates
+ * below 960 Hz, a sixteenth of the rate.  `rate_hz` > 0 [Hz]. */
+void bridge_init(Bridge* bridge, double rate_hz);
+
+/** A bridge on a body, at rest; one that moves nowhere where the body has no mode. */
+void bridge_init_on(Bridge* bridge, const Body* body, BodyShape shape, double rate_hz);
+
+/** Bring it to rest. */
+void bridge_rest(Bridge* bridge);
 
 /**
    q of a string, by the pitch that it is made for: heavy strings are low.
@@ -91,12 +109,12 @@ Bridge bridge_at(double rate_hz);
 */
 double bridge_mass(double f0_hz);
 
-/** The tie of a stable string of `n_masses` with `coefs`; its load is at most BRIDGE_MOST_LOAD. */
-BridgeTie bridge_tie(StringCoefs coefs, uint32_t n_masses, BridgeHold hold);
+/** The tie of a stable string of `n_masses` with `coefs`; it takes at most BRIDGE_MOST_LOAD. */
+BridgeTie bridge_tie(const Bridge* bridge, StringCoefs coefs, uint32_t n_masses, BridgeHold hold);
 
 /**
-   What is left of the whole's stability limit, as tuning_headroom(): 1 − (a + 2g + Σ load)/4.  The
-   whole is stable iff each string is and this is not negative.
+   What is left of the whole's stability limit, 1 − B Σ load.  The whole is stable iff each string
+   is and this is not negative.
 
    @param load  Of all strings that are tied
 */
@@ -117,6 +135,8 @@ typedef struct {
    it takes more, the pitch is still exact, and the string dies sooner than was asked.
 
    @param n_masses       Those that the string will have, ≥ 1
+   @param[in,out] hold   How it is to be tied; with a shorter lever where a mode of the body at its
+   pitch would else make a wolf of it
    @param[in,out] shift  What it was the last time, for that saves time where it moves little; what
    it is now
    @return `target` as it was where `hold` is none, or the target cannot be had
@@ -124,7 +144,7 @@ typedef struct {
 TuningTarget bridge_correct(const Bridge* bridge,
                             TuningTarget target,
                             uint32_t n_masses,
-                            BridgeHold hold,
+                            BridgeHold* hold,
                             BridgeShift* shift);
 
 /**
@@ -133,9 +153,6 @@ TuningTarget bridge_correct(const Bridge* bridge,
    @param force   Σ r p eᵀx, the strings' last masses being where they were before their step
    @param spring  Σ s
 */
-static inline void bridge_step(Bridge* bridge, double force, double spring) {
-  bridge->w += force - (bridge->bare.a + spring) * bridge->y - bridge->bare.g * bridge->w;
-  bridge->y += bridge->w;
-}
+void bridge_step(Bridge* bridge, double force, double spring);
 
 #endif

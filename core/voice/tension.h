@@ -23,7 +23,7 @@
 #include <stdint.h>
 
 /** What the hardest pluck of a guitar's low E has, as the guitar comes. */
-#define TENSION_AMPLITUDE 1.24
+#define TENSION_AMPLITUDE 0.232
 
 /** The most that it makes a string sharp by: a fret or two, beyond which none would hold, and a
  * part of what a bend may do in any case. */

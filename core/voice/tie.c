@@ -11,16 +11,17 @@ static void glide(Tie* tie, BridgeTie goal, uint32_t n_frames) {
   tie->weight = goal.weight;
 }
 
-void tie_take_masses(Tie* tie, const Chain* chain) {
+void tie_take_masses(Tie* tie, const Bridge* bridge, const Chain* chain) {
   if (tie->n_masses != chain->n_masses && tie_is_on(tie)) {
-    glide(tie, bridge_tie(chain->now, chain->n_masses, tie->hold), 0);
+    glide(tie, bridge_tie(bridge, chain->now, chain->n_masses, tie->hold), 0);
   }
   tie->n_masses = chain->n_masses;
 }
 
-void tie_glide(Tie* tie, const Chain* chain, BridgeHold hold, uint32_t n_glide) {
+void tie_glide(
+    Tie* tie, const Bridge* bridge, const Chain* chain, BridgeHold hold, uint32_t n_glide) {
   glide(tie,
-        tie_is_wanted(hold) ? bridge_tie(chain->goal, chain->n_masses, hold)
+        tie_is_wanted(hold) ? bridge_tie(bridge, chain->goal, chain->n_masses, hold)
                             : (BridgeTie){.weight = tie->weight},
         n_glide);
   tie->hold = hold;
@@ -35,8 +36,8 @@ void tie_renew(Tie* tie, uint32_t n_frames) {
   glide(tie, goal, n_frames);
 }
 
-void tie_follow(Tie* tie, const Chain* chain) {
+void tie_follow(Tie* tie, const Bridge* bridge, const Chain* chain) {
   if (tie_is_on(tie) && tie_is_wanted(tie->hold)) {
-    glide(tie, bridge_tie(chain->goal, chain->n_masses, tie->hold), chain->n_gliding);
+    glide(tie, bridge_tie(bridge, chain->goal, chain->n_masses, tie->hold), chain->n_gliding);
   }
 }

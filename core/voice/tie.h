@@ -41,14 +41,15 @@ static inline bool tie_is_wanted(BridgeHold hold) {
 
 /** The string may have other masses than the tie was made for: tie those, at once, for they moved
  * at once too. */
-void tie_take_masses(Tie* tie, const Chain* chain);
+void tie_take_masses(Tie* tie, const Bridge* bridge, const Chain* chain);
 
 /** The chain has set out, in `n_glide` frames, for the coefficients that suit `hold`: so does the
  * tie. */
-void tie_glide(Tie* tie, const Chain* chain, BridgeHold hold, uint32_t n_glide);
+void tie_glide(
+    Tie* tie, const Bridge* bridge, const Chain* chain, BridgeHold hold, uint32_t n_glide);
 
 /** The chain has set out for other coefficients, by a few cents: so does the tie. */
-void tie_follow(Tie* tie, const Chain* chain);
+void tie_follow(Tie* tie, const Bridge* bridge, const Chain* chain);
 
 /** Begin anew with no tie, and have it in `n_frames`. */
 void tie_renew(Tie* tie, uint32_t n_frames);

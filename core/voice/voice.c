@@ -103,20 +103,22 @@ static bool retune(Voice* voice, const TuningTarget* target, bool is_tied, uint3
 static bool
 retune_tied(Voice* voice, const TuningTarget* target, BridgeHold hold, uint32_t n_glide) {
   Tie* const tie = &voice->tie;
+  BridgeHold kept = hold;
   uint32_t n_masses = 0;
-  tie_take_masses(tie, &voice->chain);
+  tie_take_masses(tie, voice->bridge, &voice->chain);
   if (!tie_is_wanted(hold) && !tie_is_on(tie)) {
     return retune(voice, target, false, n_glide);
   }
   do {
     n_masses = voice->chain.n_masses;
-    const TuningTarget own = bridge_correct(voice->bridge, *target, n_masses, hold, &tie->shift);
+    kept = hold;
+    const TuningTarget own = bridge_correct(voice->bridge, *target, n_masses, &kept, &tie->shift);
     if (!retune(voice, &own, true, n_glide)) {
       return false;
     }
   } while (voice->chain.n_masses < n_masses);
-  tie_take_masses(tie, &voice->chain);
-  tie_glide(tie, &voice->chain, hold, n_glide);
+  tie_take_masses(tie, voice->bridge, &voice->chain);
+  tie_glide(tie, voice->bridge, &voice->chain, kept, n_glide);
   return true;
 }
 
@@ -236,7 +238,7 @@ static bool act_played(Voice* voice) {
   }
   const bool is_gliding = intonation_hear(&voice->intonation, &voice->chain, voice->bow.before);
   if (is_gliding) {
-    tie_follow(&voice->tie, &voice->chain);
+    tie_follow(&voice->tie, voice->bridge, &voice->chain);
   }
   const bool has_left = !is_played(voice);
   if (has_left || voice->n_until_check == 1) {
@@ -424,10 +426,6 @@ static void take_pluck(Voice* voice, double work) {
 
 void voice_pluck(Voice* voice, Pluck pluck) {
   take_pluck(voice, pluck_pull(&voice->chain, pluck));
-}
-
-void voice_push(Voice* voice, Pluck pluck) {
-  take_pluck(voice, pluck_push(&voice->chain, pluck));
 }
 
 void voice_strike(Voice* voice, Strike strike) {

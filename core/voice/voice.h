@@ -187,9 +187,6 @@ void voice_hand_over(Voice* from, Voice* to);
 /** Pull it aside and let it go, beside all that it does. */
 void voice_pluck(Voice* voice, Pluck pluck);
 
-/** Push it, beside all that it does: see pluck_push(). */
-void voice_push(Voice* voice, Pluck pluck);
-
 /** Throw a hammer at it. */
 void voice_strike(Voice* voice, Strike strike);
 
@@ -270,7 +267,7 @@ ChainTap voice_tap(const Voice* voice, const Pickup* pickup, double angle1);
 /**
    Run a voice by itself, awake or not, and add what pickups read of it to `out`.
 
-   @param reading  1, 2 or CHAIN_MAX_TAPS taps
+   @param reading  As many taps as chain_taps() says
    @param out      As many buffers of n_frames
 */
 void voice_run(

@@ -30,13 +30,14 @@ static const Body* body_of(BodiesChoice choice) {
 }
 
 static double gain_db(const Body* body, double hz) {
-  return 10.0 * log10(body_gain_square(body, hz));
+  return 10.0 * log10(body_gain_square(body, (BodyShape){1.0, 1.0}, hz));
 }
 
 static double mean_db(const Body* body, double low_hz, double high_hz) {
   double sum = 0.0;
   for (int i = 0; i < 64; ++i) {
-    sum += body_gain_square(body, low_hz * pow(high_hz / low_hz, (i + 0.5) / 64));
+    sum += body_gain_square(body, (BodyShape){1.0, 1.0},
+                            low_hz * pow(high_hz / low_hz, (i + 0.5) / 64));
   }
   return 10.0 * log10(sum / 64);
 }

@@ -131,9 +131,10 @@ static void a_crowd_is_what_it_is_said_to_be(void** state) {
   /* ⟨b²⟩ = 1, but for the least of it, which makes it 1.0005. */
   assert_within("mobility", fabs(mobility / n_modes * 2.0 - 1.0), 0.03);
   assert_within("left and right", fabs(squares[0] / squares[1] - 1.0), 0.05);
-  /* R² ⟨b²⟩ (1 + ¼) 4/5 / M² */
-  assert_within("radiation", fabs(squares[0] / n_modes / (9.0 / 4.0) - 1.0), 0.05);
-  assert_within("alike to 0.6", fabs(product / sqrt(squares[0] * squares[1]) - 0.6), 0.02);
+  /* R² ⟨b²⟩ (1 + ⟨e²⟩)/M², e even to 0.2 */
+  assert_within("radiation", fabs(squares[0] / n_modes / (9.0 / 4.0 * (1.0 + 0.04 / 3.0)) - 1.0),
+                0.05);
+  assert_within("alike to 0.974", fabs(product / sqrt(squares[0] * squares[1]) - 0.9737), 0.003);
   /* Wigner's: ⟨s²⟩/⟨s⟩² = 4/π; of a random row it would be 2. */
   assert_within("distances", fabs(gap_squares / n_gaps / (mean * mean) - 1.2732), 0.02);
 }

@@ -186,7 +186,7 @@ static void gesture(Played* played, Random* random) {
   if (what < 2) {
     const Pluck pluck = {random_between(random, 0.0, 1.0), random_between(random, 0.0, 1.0),
                          played->amplitude * random_between(random, -1.0, 1.0), 0.0};
-    (void)(random_below(random, 2) ? pluck_pull : pluck_push)(&played->strung.chain, pluck);
+    (void)pluck_pull(&played->strung.chain, pluck);
     ++played->counts[N_PLUCKS];
   } else if (what < 4) {
     strike_anyhow(played, random);

@@ -195,7 +195,7 @@ static void node_is_not_felt(void** state) {
 
 /* Run under a finger, it dies far sooner than without. */
 static double left_of(uint32_t n_steps, double weight) {
-  static const ChainTap tap = {{0, 0}, {1.0f, 0.0f}};
+  static const ChainTap tap = {{0, 0}, {1.0f, 0.0f}, false};
   const TuningTarget target = {48e3, {110.0, 10.0}, 0.0, 0.0, PARTIALS_TRUEST};
   StringCoefs coefs = {0};
   float sample;

@@ -136,7 +136,7 @@ static void frames_may_be_cut_anyhow(void** state) {
       const uint32_t most = way == 0 ? 1 : 257;
       const uint32_t stretch = hammer.is_active ? 1 : most < 4000 - n ? most : 4000 - n;
       float* const out[] = {heard[way] + n};
-      chain_run(&strung.chain, stretch, &(ChainTap){{3, 4}, {0.5f, 0.5f}}, 1, out);
+      chain_run(&strung.chain, stretch, &(ChainTap){{3, 4}, {0.5f, 0.5f}, false}, 1, out);
       hammer_act(&hammer, &strung.chain);
       n += stretch;
     }

@@ -22,7 +22,7 @@ static _Alignas(CHAIN_ALIGNMENT) char memory[32 * CHAIN_MAX_MASSES];
 static float sink[1];
 
 static void step(Chain* chain) {
-  static const ChainTap tap = {{0, 0}, {0.0f, 0.0f}};
+  static const ChainTap tap = {{0, 0}, {0.0f, 0.0f}, false};
   float* const out[] = {sink};
   chain_run(chain, 1, &tap, 1, out);
 }
@@ -290,38 +290,6 @@ static void string_is_pulled_to_a_corner_and_no_farther(void** state) {
   assert_within("farthest, of the corner", farthest, 1.01);
 }
 
-/* Heard in displacement, a push is what a pull is in velocity: as loud in all partials, each a
- * quarter of its period apart. */
-static void push_is_heard_as_the_velocity_of_a_pull(void** state) {
-  (void)state;
-  enum { N = 90 };
-  Chain chain;
-  double worst = 0.0;
-  string_of(&chain, N, PARTIALS_TRUEST, 0.0);
-  const double angle1 = pole_angle(tuning_mode(chain.now, N, 1));
-  for (int p = 0; p < 9; ++p) {
-    const Pluck pluck = {0.09 * p + 0.1, 0.125 * p, 0.25, 0.0};
-    chain_rest(&chain);
-    (void)pluck_pull(&chain, pluck);
-    double pulled[21];
-    for (uint32_t k = 1; k <= 20; ++k) {
-      pulled[k] = partial(&chain, k, chain_position);
-    }
-    chain_rest(&chain);
-    const double given = pluck_push(&chain, pluck);
-    assert_true(fabs(given / chain_energy(&chain) - 1.0) < 1e-9);
-    for (uint32_t k = 1; k <= 20; ++k) {
-      const double angle = pole_angle(tuning_mode(chain.now, N, k));
-      const double pushed = partial(&chain, k, chain_velocity) / sin(angle);
-      /* Velocity, the fundamental's as large as its displacement: centred, so by the sines. */
-      const double velocity = pulled[k] * (2.0 - 2.0 * cos(angle)) / (2.0 - 2.0 * cos(angle1)) *
-                              sin(angle1) / sin(angle);
-      worst = fmax(worst, fabs(pushed - velocity) / 0.25);
-    }
-  }
-  assert_within("partials, of the amplitude", worst, 1e-5);
-}
-
 static void pull_adds_to_what_rings(void** state) {
   (void)state;
   enum { N = 60 };
@@ -364,7 +332,6 @@ int main(void) {
       cmocka_unit_test(harder_is_brighter),
       cmocka_unit_test(flipping_mode_is_left_alone),
       cmocka_unit_test(string_is_pulled_to_a_corner_and_no_farther),
-      cmocka_unit_test(push_is_heard_as_the_velocity_of_a_pull),
       cmocka_unit_test(pull_adds_to_what_rings),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { N_FILES = 2, LONGEST = 5000 };
+enum { N_FILES = 3, LONGEST = 5000 };
 
 typedef struct {
   uint8_t* bytes; /* NULL: there is nothing */
@@ -94,9 +94,10 @@ static Value take_value(FuzzFeed* feed) {
 }
 
 static State take_state(FuzzFeed* feed) {
-  State state = {
-      .keys = {plug_urid("urn:hooke:strings#scale"), plug_urid("urn:hooke:strings#mapping")},
-      .mapping = fuzz_byte(feed) % 5};
+  State state = {.keys = {plug_urid("urn:hooke:strings#scale"),
+                          plug_urid("urn:hooke:strings#mapping"),
+                          plug_urid("urn:hooke:strings#body")},
+                 .mapping = fuzz_byte(feed) % 5};
   for (int i = 0; i < N_FILES; ++i) {
     state.values[i] = take_value(feed);
   }
@@ -128,7 +129,7 @@ void fuzz_one(const uint8_t* bytes, size_t n_bytes) {
   Plug* const plug = plug_in(&plug_strings, 48000.0);
   plug->n_room = head < 128 ? PLUG_MAX_NOTIFY : 0;
   restore_and_save(plug, &state);
-  FUZZ_CLAIM(state.is_saved[0] && state.is_saved[1]);
+  FUZZ_CLAIM(state.is_saved[0] && state.is_saved[1] && state.is_saved[2]);
   for (int i = 0; i < N_FILES; ++i) {
     free(state.values[i].bytes);
   }

@@ -20,9 +20,10 @@ static uint32_t put(uint8_t* body, uint32_t at, const void* from, uint32_t n_byt
 
 static LV2_URID word(FuzzFeed* feed) {
   static const char* const words[] = {
-      LV2_PATCH__Set,     LV2_PATCH__Get,       LV2_PATCH__property,    LV2_PATCH__value,
-      LV2_PATCH__subject, STRINGS_URI "#scale", STRINGS_URI "#mapping", STRINGS_URI,
-      LV2_ATOM__URID,     LV2_ATOM__Path,       LV2_ATOM__String,       LV2_ATOM__Int,
+      LV2_PATCH__Set,      LV2_PATCH__Get,       LV2_PATCH__property,    LV2_PATCH__value,
+      LV2_PATCH__subject,  STRINGS_URI "#scale", STRINGS_URI "#mapping", STRINGS_URI,
+      LV2_ATOM__URID,      LV2_ATOM__Path,       LV2_ATOM__String,       LV2_ATOM__Int,
+      STRINGS_URI "#body",
   };
   enum { N_WORDS = sizeof(words) / sizeof(words[0]) };
   const uint32_t byte = fuzz_byte(feed);
@@ -51,7 +52,7 @@ static uint32_t add_property(FuzzFeed* feed, uint8_t* body, uint32_t at) {
   return (at + size + 7u) & ~7u;
 }
 
-/* An object about the tuning's files, whole or cut short. */
+/* An object about a player's files, whole or cut short. */
 static uint32_t make_object(FuzzFeed* feed, uint8_t body[BLOCKS_BODY]) {
   const LV2_Atom_Object_Body head = {0, word(feed)};
   uint32_t size = put(body, 0, &head, sizeof(head));

@@ -131,7 +131,8 @@ static const void* retrieve_nothing(
   *type = plug_urid(LV2_ATOM__String);
   *flags = LV2_STATE_IS_POD;
   return key == plug_urid("urn:hooke:strings#scale") ||
-                 key == plug_urid("urn:hooke:strings#mapping")
+                 key == plug_urid("urn:hooke:strings#mapping") ||
+                 key == plug_urid("urn:hooke:strings#body")
              ? ""
              : NULL;
 }

@@ -156,7 +156,7 @@ static void dead_string_sleeps_in_exact_zeros(void** state) {
   guitar_string_pluck(&string, (Pluck){0.3, 0.5, 0.25, 0.0});
   assert_true(string.voice.is_awake);
   while (string.voice.is_awake && n_frames < 100000) {
-    guitar_string_run(&string, &gains, 16, none);
+    guitar_string_run(&string, &gains, 16, none, NULL);
     n_frames += 16;
   }
   assert_within("seconds from ln(10⁶) τ", fabs(n_frames / RATE_HZ - log(1e6) / 20.0), 0.05);

@@ -26,7 +26,7 @@ static void play(const GuitarGains gains[N_BLOCKS], float out[N]) {
     if (block == 2) {
       guitar_string_slide(&string, 5.0, 400);
     }
-    guitar_string_run(&string, &gains[block], FRAMES, &out[(size_t)block * FRAMES]);
+    guitar_string_run(&string, &gains[block], FRAMES, &out[(size_t)block * FRAMES], NULL);
   }
 }
 

@@ -196,8 +196,10 @@ static void nothing_that_hands_do_clicks(void** state) {
     worst = fmax(worst, fmax(most.step, most.turn));
   }
   guitar_free(guitar);
-  /* What is bent keeps its amplitude, and partials meet on the way as they do in no pluck. */
-  assert_within("largest edge, of a pluck's", worst, 1.05);
+  /* What is bent keeps its amplitude, and partials meet on the way as they do in no pluck; and of
+   * what is slid up an octave those near half the rate are louder beside a pluck's, as velocity
+   * goes with sin(ω/2). */
+  assert_within("largest edge, of a pluck's", worst, 1.1);
 }
 
 /* A step of a tenth of a note's peak is seen on every string. */

@@ -39,7 +39,7 @@ static void solo_run(Solo* solo, uint32_t n_frames) {
   float none[GUITAR_MIX_FRAMES];
   while (n_frames > 0) {
     const uint32_t n = n_frames < GUITAR_MIX_FRAMES ? n_frames : GUITAR_MIX_FRAMES;
-    guitar_string_run(&solo->string, &solo->gains, n, none);
+    guitar_string_run(&solo->string, &solo->gains, n, none, NULL);
     n_frames -= n;
   }
 }

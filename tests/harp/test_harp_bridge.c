@@ -27,6 +27,10 @@ static HarpPatch patch_with(double resonance) {
   return patch;
 }
 
+static bool is_bridge_at_rest(const Harp* harp) {
+  return harp->bridge.bridge.y == 0.0 && bank_level(&harp->bridge.bridge.bank) == 0.0;
+}
+
 static bool is_awake(const Harp* harp, uint32_t key) {
   return harp->strings[key].voice.is_awake;
 }
@@ -41,7 +45,7 @@ static void without_resonance_there_is_no_bridge(void** state) {
     harp_run(harp, 480, left, right);
     assert_int_equal(harp_report(harp).n_strings, 1);
     assert_int_equal(harp->bridge.n_tied, 0);
-    assert_true(harp->bridge.bridge.y == 0.0 && harp->bridge.bridge.w == 0.0);
+    assert_true(is_bridge_at_rest(harp));
   }
   assert_int_equal(harp->strings[57].voice.chain.numbers, CHAIN_FIXED);
   harp_free(harp);
@@ -67,7 +71,7 @@ static void bridge_leaves_nothing_behind(void** state) {
   harp_run(harp, RATE, left, right);
   assert_int_equal(harp_report(harp).n_strings, 0);
   assert_int_equal(harp->bridge.n_tied, 0);
-  assert_true(harp->bridge.bridge.y == 0.0 && harp->bridge.bridge.w == 0.0);
+  assert_true(is_bridge_at_rest(harp));
   harp_note_on(harp, 0, 57, 90);
   harp_run(harp, RATE, left, right);
   assert_memory_equal(left, fresh, sizeof(fresh));
@@ -276,7 +280,7 @@ static void all_that_answers_dies_away(void** state) {
   for (size_t i = 0; i < 4800; ++i) {
     assert_true(left[i] == 0.0f && right[i] == 0.0f);
   }
-  assert_true(harp->bridge.bridge.y == 0.0 && harp->bridge.level == 0.0);
+  assert_true(is_bridge_at_rest(harp) && harp->bridge.level == 0.0);
   harp_free(harp);
 }
 

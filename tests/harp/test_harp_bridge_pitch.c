@@ -95,8 +95,9 @@ static void tie_follows_the_masses(void** state) {
   assert_within("bent far [cents]", fabs(measure_cents(tone.f0_hz, asked.f0_hz)), 0.01);
   /* It pulls as one that is made for that pitch. */
   const double lever = sqrt(bridge_mass(1760.0) / bridge_mass(440.0));
-  const BridgeTie tie = bridge_tie(string->voice.chain.now, string->voice.chain.n_masses,
-                                   (BridgeHold){bridge_mass(440.0), lever});
+  const BridgeTie tie =
+      bridge_tie(&harp->bridge.bridge, string->voice.chain.now, string->voice.chain.n_masses,
+                 (BridgeHold){bridge_mass(440.0), lever});
   assert_true(fabs(string->voice.tie.pull.value / tie.pull - 1.0) < 1e-9);
   assert_true(fabs(string->voice.tie.weight / tie.weight - 1.0) < 1e-9);
   assert_true(fabs(string->voice.tie.spring.value / tie.spring - 1.0) < 1e-9);

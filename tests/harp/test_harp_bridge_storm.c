@@ -82,7 +82,7 @@ static double storm(double rate_hz, Random* random, double* headroom) {
     gesture(harp, random);
     harp_run(harp, n, left[0], right[0]);
     peak = fmax(peak, fmax(measure_peak(left[0], n), measure_peak(right[0], n)));
-    assert_true(isfinite(harp->bridge.bridge.y) && isfinite(harp->bridge.bridge.w));
+    assert_true(isfinite(harp->bridge.bridge.y) && isfinite(bank_level(&harp->bridge.bridge.bank)));
     *headroom = fmin(*headroom, harp_report(harp).headroom);
     done += n;
   }

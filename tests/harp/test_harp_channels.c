@@ -225,6 +225,35 @@ static void a_gain_moves_in_a_straight_line(void** state) {
   }
 }
 
+/* Of a channel that is silent a gain holds at once: a note of the same moment has it from its first
+ * frame, whatever others play. */
+static void a_gain_set_in_silence_holds_at_once(void** state) {
+  (void)state;
+  enum { N = RATE / 10, SECOND = 3 };
+  static float as_it_is[N];
+  static float alone[N];
+  Harp* const harps[] = {harp_notes_harp(), harp_notes_harp(), harp_notes_harp()};
+  for (size_t k = 0; k < 2; ++k) {
+    harp_note_on(harps[k], 0, KEY, 100);
+  }
+  harp_set_gain(harps[0], SECOND, 0.25);
+  harp_note_on(harps[0], SECOND, KEY + 7, 100);
+  harp_note_on(harps[2], SECOND, KEY + 7, 100);
+  harps_run(harps[0], N, left, NULL);
+  harps_run(harps[1], N, alone, NULL);
+  harps_run(harps[2], N, as_it_is, NULL);
+  double error = 0.0;
+  for (uint32_t n = 0; n < N; ++n) {
+    error = fmax(error, fabs((double)left[n] - (double)alone[n] - 0.25 * (double)as_it_is[n]));
+  }
+  assert_true(measure_peak(as_it_is, N) > 0.01);
+  /* Floats of sums. */
+  assert_within("of full scale", error, 1e-6);
+  for (size_t k = 0; k < 3; ++k) {
+    harp_free(harps[k]);
+  }
+}
+
 /* What rings softly does not become loud when another channel takes its key. */
 static void what_rings_with_another_gain_is_left_alone(void** state) {
   (void)state;
@@ -520,6 +549,7 @@ int main(void) {
       cmocka_unit_test(a_shared_string_sounds_until_the_last_lets_go),
       cmocka_unit_test(a_channel_has_a_gain_of_its_own),
       cmocka_unit_test(a_gain_moves_in_a_straight_line),
+      cmocka_unit_test(a_gain_set_in_silence_holds_at_once),
       cmocka_unit_test(what_rings_with_another_gain_is_left_alone),
       cmocka_unit_test(a_shared_string_is_plucked_anew),
       cmocka_unit_test(a_loan_of_a_gain_ends_with_the_sound),

@@ -152,7 +152,7 @@ typedef struct {
 
 static void run_frames(Case* c, uint32_t n_frames) {
   static float sound[DOZE];
-  static const ChainTap tap = {{0, 0}, {1.0f, 0.0f}};
+  static const ChainTap tap = {{0, 0}, {1.0f, 0.0f}, false};
   float* const out[] = {sound};
   chain_run(&c->string.voice.chain, n_frames, &tap, 1, out);
 }

@@ -149,12 +149,38 @@ static void every_port_is_heard(void** state) {
       {"loss_tracking", 2.0},
       {"release_tracking", 1.0},
       {"tension", 10.0},
+      {"body", 1.0},
   };
   (void)state;
   Host* const host = guitar_open(RATE, BLOCK);
   Sound usual = play(host);
   for (size_t i = 0; i < sizeof(others) / sizeof(others[0]); ++i) {
     Host* const other = guitar_open(RATE, BLOCK);
+    strings_set(other, others[i].symbol, others[i].value);
+    Sound sound = play(other);
+    print_message("%s\n", others[i].symbol);
+    assert_false(sound_is_same(&usual, &sound));
+    sound_free(&sound);
+    host_free(other);
+  }
+  sound_free(&usual);
+  host_free(host);
+}
+
+/* Once there is one. */
+static void every_port_of_the_body_is_heard(void** state) {
+  static const struct {
+    const char* symbol;
+    double value;
+  } others[] = {{"body", 2.0},      {"body_mix", 0.3},     {"body_mix", 0.0},
+                {"body_size", 1.2}, {"body_damping", 2.0}, {"knock", 0.5}};
+  (void)state;
+  Host* const host = guitar_open(RATE, BLOCK);
+  strings_set(host, "body", 1.0);
+  Sound usual = play(host);
+  for (size_t i = 0; i < sizeof(others) / sizeof(others[0]); ++i) {
+    Host* const other = guitar_open(RATE, BLOCK);
+    strings_set(other, "body", 1.0);
     strings_set(other, others[i].symbol, others[i].value);
     Sound sound = play(other);
     print_message("%s\n", others[i].symbol);
@@ -249,6 +275,7 @@ int main(void) {
       cmocka_unit_test(the_ports_make_the_patch),
       cmocka_unit_test(the_ends_of_the_ports_make_the_patch),
       cmocka_unit_test(every_port_is_heard),
+      cmocka_unit_test(every_port_of_the_body_is_heard),
       cmocka_unit_test(what_is_out_of_range_is_clamped),
       cmocka_unit_test(what_is_no_number_or_not_connected_is_the_default),
       cmocka_unit_test(whole_numbers_are_the_nearest),

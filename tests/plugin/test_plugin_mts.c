@@ -198,6 +198,25 @@ static void the_last_word_counts_be_it_a_file_or_a_message(void** state) {
   }
 }
 
+/* A body is no new tuning. */
+static void a_body_leaves_what_a_message_tuned(void** state) {
+  const ScalePath directory = scale_new_directory();
+  const ScalePath path = scale_write_body(&directory, "a.body", BODIES_HARP);
+  (void)state;
+  for (int is_guitar = 0; is_guitar < 2; ++is_guitar) {
+    Host* const host = open_plain(is_guitar);
+    Sound sound = sound_new(N_FRAMES);
+    send_note(host, 0, true, 64, 64 * 16384 + 4096);
+    assert_true(host_run(host, BLOCK));
+    assert_true(host_set_file(host, is_guitar ? GUITAR_URI "#body" : BODY_PARAMETER, path.text));
+    play(host, &sound);
+    assert_pitch(&sound, RATE / 20, N_FRAMES, 64.25);
+    sound_free(&sound);
+    host_free(host);
+  }
+  scale_remove_directory(&directory);
+}
+
 /* What is malformed, a request, and other makers' messages leave every bit as it was. */
 static void what_tunes_nothing_changes_no_bit(void** state) {
   static const uint8_t messages[][16] = {
@@ -235,6 +254,7 @@ int main(void) {
       cmocka_unit_test(octaves_are_their_channels),
       cmocka_unit_test(master_tuning_moves_everything),
       cmocka_unit_test(the_last_word_counts_be_it_a_file_or_a_message),
+      cmocka_unit_test(a_body_leaves_what_a_message_tuned),
       cmocka_unit_test(what_tunes_nothing_changes_no_bit),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

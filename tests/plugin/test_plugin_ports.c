@@ -57,6 +57,11 @@ static const Pin pinned[] = {
     {"second", PIN_IN, PIN_VALUE, NULL, PIN_EXPENSIVE, 0.0f, 1.0f, 0.0f},
     {"second_detune", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 30.0f, 5.0f},
     {"second_decay", PIN_IN, PIN_VALUE, NULL, PIN_LOGARITHMIC, 0.25f, 4.0f, 1.0f},
+    {"body", PIN_IN, PIN_VALUE, NULL, PIN_INTEGER | PIN_ENUMERATION, 0.0f, 12.0f, 0.0f},
+    {"body_mix", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.7f},
+    {"body_size", PIN_IN, PIN_VALUE, NULL, 0, 0.5f, 2.0f, 1.0f},
+    {"body_damping", PIN_IN, PIN_VALUE, NULL, PIN_LOGARITHMIC, 0.25f, 4.0f, 1.0f},
+    {"knock", PIN_IN, PIN_VALUE, NULL, 0, 0.0f, 1.0f, 0.0f},
 };
 
 enum { N_PINNED = sizeof(pinned) / sizeof(pinned[0]) };

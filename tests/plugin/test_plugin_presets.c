@@ -117,12 +117,13 @@ static ToneError check_bowed_key(Host* host, uint32_t key, double* quietest, dou
   return error;
 }
 
-/* One string of each key, in one direction, and not stretched: what is exact of a group is its
- * mean. */
+/* One string of each key, in one direction, not stretched, and without what rings of its body: what
+ * is exact of a group is its mean. */
 static void play_one_string(Host* host) {
   strings_set(host, "unisons", 1.0);
   strings_set(host, "second", 0.0);
   strings_set(host, "tension", 0.0);
+  strings_set(host, "body_mix", 0.0);
 }
 
 /* Audible, above −40 dB, and not clipped: below 0 dB. */

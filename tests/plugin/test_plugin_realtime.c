@@ -186,7 +186,7 @@ static void the_audio_thread_takes_no_memory(void** state) {
   check_plugin(guitar_open(RATE, BLOCK));
 }
 
-/* A message to the tuner, and room for its answers. */
+/* A message about the files, and room for its answers. */
 typedef struct {
   LV2_Atom_Sequence head;
   int64_t frame;
@@ -195,7 +195,7 @@ typedef struct {
 
 typedef struct {
   LV2_Atom_Sequence head;
-  uint8_t bytes[2 * SCALE_HOST_PATH];
+  uint8_t bytes[4 * SCALE_HOST_PATH];
 } Answers;
 
 static void run_wish(Host* host, Watched plugin, const char* parameter, const char* path) {
@@ -213,21 +213,28 @@ static void run_wish(Host* host, Watched plugin, const char* parameter, const ch
   assert_true(path || answers.head.atom.size > sizeof(LV2_Atom_Sequence_Body));
 }
 
+static ScalePath parameter_of(const char* uri, const char* name) {
+  ScalePath parameter;
+  (void)snprintf(parameter.text, sizeof(parameter.text), "%s#%s", uri, name);
+  return parameter;
+}
+
 /* The worker has no room, for what else it does here is the host's own and takes memory; so tables
  * come from a session, between the runs. */
-static void a_new_scale_takes_no_memory(void** state) {
-  (void)state;
-  if (!CAN_WATCH) {
-    skip();
-  }
-  Host* const host = strings_open(RATE, BLOCK);
+static void check_files(Host* host, const char* uri) {
   const Watched plugin = watch(host);
+  const ScalePath directory = scale_new_directory();
+  const ScalePath body = scale_write_body(&directory, "a.body", BODIES_GRAND);
   const ScalePath path = scale_path("just-major.scl");
   LilvState* states[2];
   for (int i = 0; i < 2; ++i) {
-    scale_use(host, i ? "19-equal.scl" : NULL, i ? NULL : "white-keys.kbm");
+    const char* const names[] = {i ? "19-equal.scl" : NULL, i ? NULL : "white-keys.kbm"};
+    assert_true(host_set_file(host, parameter_of(uri, "scale").text, scale_path(names[0]).text));
+    assert_true(host_set_file(host, parameter_of(uri, "mapping").text, scale_path(names[1]).text));
+    assert_true(host_set_file(host, parameter_of(uri, "body").text, i ? body.text : ""));
     states[i] = host_save_state(host);
   }
+  strings_set(host, "body", BODIES_FILE);
   host_worker(host)->mode = HOST_WORK_REFUSED;
   for (uint32_t key = 30; key < 90; key += 4) {
     strings_note_on(host, 0, key, 127);
@@ -236,14 +243,24 @@ static void a_new_scale_takes_no_memory(void** state) {
   n_heap_calls = 0;
   for (int i = 0; i < 20; ++i) {
     host_restore_state(host, states[i % 2]);
-    run_wish(host, plugin, SCALE_PARAMETER, path.text);
+    run_wish(host, plugin, parameter_of(uri, i % 4 < 2 ? "scale" : "body").text, path.text);
     run_wish(host, plugin, NULL, NULL);
   }
   lilv_state_free(states[0]);
   lilv_state_free(states[1]);
   host_free(host);
+  scale_remove_directory(&directory);
   print_message("%u calls of the heap\n", n_heap_calls);
   assert_int_equal(n_heap_calls, 0);
+}
+
+static void new_files_take_no_memory(void** state) {
+  (void)state;
+  if (!CAN_WATCH) {
+    skip();
+  }
+  check_files(strings_open(RATE, BLOCK), STRINGS_URI);
+  check_files(guitar_open(RATE, BLOCK), GUITAR_URI);
 }
 
 /* The control: a library built as the plugin is, whose function calls the heap seven times. */
@@ -280,7 +297,7 @@ static void the_watch_sees_a_planted_use_of_the_heap(void** state) {
 int main(int argc, char** argv) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_audio_thread_takes_no_memory),
-      cmocka_unit_test(a_new_scale_takes_no_memory),
+      cmocka_unit_test(new_files_take_no_memory),
       cmocka_unit_test(the_watch_sees_a_planted_use_of_the_heap),
   };
   program = argc > 0 ? argv[0] : "";

@@ -1,4 +1,4 @@
-/* What a panel says of the tuning files, and what it is told. */
+/* What a panel says of a player's files, and what it is told. */
 #include "tests/support/host_inside.h"
 #include "tests/support/host_state.h"
 #include "tests/support/scale_host.h"
@@ -44,6 +44,7 @@ static void who_asks_is_answered_once(void** state) {
   run(host);
   assert_told(host, SCALE_PARAMETER, "");
   assert_told(host, MAPPING_PARAMETER, "");
+  assert_told(host, BODY_PARAMETER, "");
   run(host);
   assert_silent(host);
   scale_use(host, SCALE, NULL);
@@ -53,6 +54,7 @@ static void who_asks_is_answered_once(void** state) {
   run(host);
   assert_told(host, SCALE_PARAMETER, scale.text);
   assert_false(scale_told(host, MAPPING_PARAMETER, &told));
+  assert_false(scale_told(host, BODY_PARAMETER, &told));
   assert_false(scale_told_change(host));
   scale_get(host, STRINGS_URI "#nothing");
   run(host);
@@ -171,8 +173,10 @@ static void without_a_worker_a_wish_is_refused(void** state) {
   Host* const host = host_new_with(STRINGS_URI, &config, error, sizeof(error));
   assert_non_null(host);
   scale_set(host, SCALE_PARAMETER, scale_path(SCALE).text);
+  scale_set(host, BODY_PARAMETER, "/some/where.body");
   run(host);
   assert_told(host, SCALE_PARAMETER, "");
+  assert_told(host, BODY_PARAMETER, "");
   assert_false(scale_told_change(host));
   scale_assert_pitch(host, 69, 440.0);
   host_free(host);

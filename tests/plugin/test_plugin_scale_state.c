@@ -1,4 +1,4 @@
-/* Tuning files in sessions and presets. */
+/* A player's files in sessions and presets. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "tests/support/host_inside.h"
@@ -46,13 +46,17 @@ static void use_file_as(Host* host, const char* parameter, const ScalePath* path
 }
 
 /* By the end of its path; an empty one: none at all. */
-static void assert_told_scale(Host* host, const char* end) {
+static void assert_told(Host* host, const char* parameter, const char* end) {
   ScalePath told;
-  scale_get(host, SCALE_PARAMETER);
+  scale_get(host, parameter);
   assert_true(host_run(host, BLOCK));
-  assert_true(scale_told(host, SCALE_PARAMETER, &told));
+  assert_true(scale_told(host, parameter, &told));
   assert_true(strlen(told.text) >= strlen(end) && (*end || !*told.text));
   assert_string_equal(told.text + strlen(told.text) - strlen(end), end);
+}
+
+static void assert_told_scale(Host* host, const char* end) {
+  assert_told(host, SCALE_PARAMETER, end);
 }
 
 static void a_session_brings_its_files_back(void** state) {
@@ -101,10 +105,13 @@ static void a_session_without_files_takes_them_away(void** state) {
   save(host, &directory);
   scale_use(host, SCALE, MAPPING);
   LilvState* const saved = host_load_state_dir(host, directory.text);
+  const ScalePath body = scale_write_body(&directory, "a.body", BODIES_HARP);
+  use_file_as(host, BODY_PARAMETER, &body);
   host_restore_preset(host, saved);
   assert_true(host_run(host, BLOCK));
   scale_assert_heard(host, NULL, NULL);
   assert_told_scale(host, "");
+  assert_told(host, BODY_PARAMETER, "");
   lilv_state_free(saved);
   host_free(host);
   scale_remove_directory(&directory);
@@ -115,6 +122,7 @@ static void a_preset_of_ports_keeps_the_scale(void** state) {
   Host* const host = strings_open(RATE, BLOCK);
   scale_use(host, SCALE, MAPPING);
   assert_true(host_preset(host, "Concert Harp"));
+  strings_set(host, "body", BODIES_NONE);
   strings_set(host, "damping", 0.5);
   strings_set(host, "tracking", 0.5);
   strings_set(host, "tuning", 440.0);
@@ -182,12 +190,23 @@ static void a_path_may_come_as_a_string(void** state) {
   host_free(host);
 }
 
-/* A host as Carla: values of both, each with the type that was stored first. */
+enum { N_KEYS = 3 };
+
+/* A host as Carla: values of all, each with the type that was stored first. */
 typedef struct {
-  LV2_URID keys[2];
-  LV2_URID types[2];
-  char values[2][SCALE_HOST_PATH];
+  LV2_URID keys[N_KEYS];
+  LV2_URID types[N_KEYS];
+  char values[N_KEYS][SCALE_HOST_PATH];
 } Keeper;
+
+static int index_of(const Keeper* keeper, LV2_URID key) {
+  int i = 0;
+  while (i < N_KEYS && keeper->keys[i] != key) {
+    ++i;
+  }
+  assert_true(i < N_KEYS);
+  return i;
+}
 
 static LV2_State_Status keep(LV2_State_Handle handle,
                              uint32_t key,
@@ -196,9 +215,8 @@ static LV2_State_Status keep(LV2_State_Handle handle,
                              uint32_t type,
                              uint32_t flags) {
   Keeper* const keeper = handle;
-  const int i = key == keeper->keys[1];
+  const int i = index_of(keeper, key);
   (void)flags;
-  assert_int_equal(key, keeper->keys[i]);
   assert_true(size <= SCALE_HOST_PATH);
   memcpy(keeper->values[i], value, size);
   keeper->types[i] = keeper->types[i] ? keeper->types[i] : type;
@@ -208,7 +226,7 @@ static LV2_State_Status keep(LV2_State_Handle handle,
 static const void*
 bring_back(LV2_State_Handle handle, uint32_t key, size_t* size, uint32_t* type, uint32_t* flags) {
   const Keeper* const keeper = handle;
-  const int i = key == keeper->keys[1];
+  const int i = index_of(keeper, key);
   *size = strlen(keeper->values[i]) + 1;
   *type = keeper->types[i];
   *flags = LV2_STATE_IS_POD;
@@ -221,41 +239,55 @@ static const LV2_State_Interface* state_interface(Host* host) {
 
 /* It saves before a file is chosen, and again after; the types may be ours, or those of 0.2.0. */
 static void a_host_that_keeps_the_first_type_keeps_the_files(void** state) {
+  const ScalePath directory = scale_new_directory();
+  const ScalePath body = scale_write_body(&directory, "a.body", BODIES_HARP);
   (void)state;
   for (int is_old = 0; is_old < 2; ++is_old) {
     Host* const host = strings_open(RATE, BLOCK);
-    Keeper keeper = {
-        {host_map(host, SCALE_PARAMETER), host_map(host, MAPPING_PARAMETER)}, {0}, {{0}}};
+    Keeper keeper = {{host_map(host, SCALE_PARAMETER), host_map(host, MAPPING_PARAMETER),
+                      host_map(host, BODY_PARAMETER)},
+                     {0},
+                     {{0}}};
     if (is_old) {
-      keeper.types[0] = keeper.types[1] = host_map(host, LV2_ATOM__String);
+      keeper.types[0] = keeper.types[1] = keeper.types[2] = host_map(host, LV2_ATOM__String);
     }
     LV2_Handle plugin = lilv_instance_get_handle(host_instance(host));
     const LV2_Feature* const none = NULL;
     assert_int_equal(state_interface(host)->save(plugin, keep, &keeper, 0, &none), 0);
     assert_int_equal(keeper.types[0], host_map(host, is_old ? LV2_ATOM__String : LV2_ATOM__Path));
     scale_use(host, SCALE, MAPPING);
+    use_file_as(host, BODY_PARAMETER, &body);
     assert_int_equal(state_interface(host)->save(plugin, keep, &keeper, 0, &none), 0);
     scale_use(host, "pythagorean.scl", NULL);
+    use_file_as(host, BODY_PARAMETER, &(ScalePath){""});
     assert_int_equal(state_interface(host)->restore(plugin, bring_back, &keeper, 0, &none), 0);
     assert_true(host_run(host, BLOCK));
     scale_assert_heard(host, SCALE, MAPPING);
+    assert_told(host, BODY_PARAMETER, "a.body");
     host_free(host);
   }
+  scale_remove_directory(&directory);
 }
 
 /* Whoever makes a state may name any file, and the log may be read by others. */
 static void a_state_puts_no_word_of_a_file_into_the_log(void** state) {
   (void)state;
-  static const char* const texts[] = {"secret\n", "1\nsecret\n", "name\n1\nsecret\n", "12\nsecret",
-                                      "12\n5\n127\n60\nsecret\n"};
+  static const char* const texts[] = {"secret\n",
+                                      "1\nsecret\n",
+                                      "name\n1\nsecret\n",
+                                      "12\nsecret",
+                                      "12\n5\n127\n60\nsecret\n",
+                                      "mode 100 20 1 1 1\nsecret\n"};
   const ScalePath directory = scale_new_directory();
   Host* const host = strings_open(RATE, BLOCK);
-  for (size_t i = 0; i < 5; ++i) {
-    for (int is_mapping = 0; is_mapping < 2; ++is_mapping) {
+  static const char* const names[] = {"passwd", "a.kbm", "a.body"};
+  static const char* const parameters[] = {SCALE_PARAMETER, MAPPING_PARAMETER, BODY_PARAMETER};
+  for (size_t i = 0; i < sizeof(texts) / sizeof(texts[0]); ++i) {
+    for (size_t p = 0; p < 9; ++p) {
       char properties[SCALE_HOST_PATH + 200];
-      const ScalePath file = scale_write(&directory, i % 2 ? "a.kbm" : "passwd", texts[i]);
-      (void)snprintf(properties, sizeof(properties), "<%s> \"%s\"^^atom:Path",
-                     is_mapping ? MAPPING_PARAMETER : SCALE_PARAMETER, file.text);
+      const ScalePath file = scale_write(&directory, names[p / 3], texts[i]);
+      (void)snprintf(properties, sizeof(properties), "<%s> \"%s\"^^atom:Path", parameters[p % 3],
+                     file.text);
       scale_log_begin();
       restore(host, properties);
       char* const said = scale_log_end();
@@ -271,25 +303,34 @@ static void a_state_puts_no_word_of_a_file_into_the_log(void** state) {
 }
 
 /* As it is chosen in Carla, which has one button alone: a mapping chosen as a scale leaves the
- * scale where it is. */
-static void either_parameter_takes_either_file(void** state) {
+ * scale where it is, and a body both.  Its ending says that it is one, or its text. */
+static void any_parameter_takes_any_file(void** state) {
   (void)state;
-  const char* const parameters[] = {SCALE_PARAMETER, MAPPING_PARAMETER};
-  for (int i = 0; i < 2; ++i) {
+  const char* const parameters[] = {SCALE_PARAMETER, MAPPING_PARAMETER, BODY_PARAMETER};
+  for (int i = 0; i < 3; ++i) {
     const ScalePath scale = scale_path(SCALE);
     const ScalePath mapping = scale_path(MAPPING);
     const ScalePath directory = scale_new_directory();
+    const ScalePath files = scale_new_directory();
+    const char* const name = i == 1 ? "modes.txt" : "a.body";
+    const ScalePath body = scale_write_body(&files, name, BODIES_HARP);
     Host* const host = strings_open(RATE, BLOCK);
     use_file_as(host, parameters[i], &scale);
+    use_file_as(host, parameters[i], &body);
     use_file_as(host, parameters[i], &mapping);
-    scale_assert_heard(host, SCALE, MAPPING);
-    assert_told_scale(host, SCALE);
-    save(host, &directory);
-    host_free(host);
-    Host* const after = open_session(&directory);
-    scale_assert_heard(after, SCALE, MAPPING);
-    host_free(after);
+    for (int is_after = 0; is_after < 2; ++is_after) {
+      Host* const now = is_after ? open_session(&directory) : host;
+      scale_assert_heard(now, SCALE, MAPPING);
+      assert_told_scale(now, SCALE);
+      assert_told(now, MAPPING_PARAMETER, MAPPING);
+      assert_told(now, BODY_PARAMETER, name);
+      if (!is_after) {
+        save(now, &directory);
+      }
+      host_free(now);
+    }
     scale_remove_directory(&directory);
+    scale_remove_directory(&files);
   }
 }
 
@@ -425,7 +466,7 @@ int main(void) {
       cmocka_unit_test(a_path_may_come_as_a_string),
       cmocka_unit_test(a_host_that_keeps_the_first_type_keeps_the_files),
       cmocka_unit_test(a_state_puts_no_word_of_a_file_into_the_log),
-      cmocka_unit_test(either_parameter_takes_either_file),
+      cmocka_unit_test(any_parameter_takes_any_file),
       cmocka_unit_test(a_file_that_is_gone_may_come_back),
       cmocka_unit_test(a_broken_file_is_named_with_its_line),
       cmocka_unit_test(it_may_be_restored_while_it_runs),

@@ -4,8 +4,8 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "plugin/bundle.h"
+#include "plugin/files.h"
 #include "plugin/ports.h"
-#include "plugin/tuner.h"
 
 #include <lv2/atom/forge.h>
 #include <lv2/log/log.h>
@@ -41,7 +41,7 @@ static const double RATE_HZ = 48000.0;
 /* Work that waits for its thread. */
 typedef struct {
   uint32_t n_bytes;
-  _Alignas(8) uint8_t bytes[sizeof(TunerRequest)];
+  _Alignas(8) uint8_t bytes[sizeof(FilesRequest)];
 } Job;
 
 typedef struct {
@@ -131,7 +131,7 @@ static void* do_work(void* data) {
   return NULL;
 }
 
-/* The path of one of the two files. */
+/* The path of one of the files. */
 static LV2_State_Status keep_path(LV2_State_Handle handle,
                                   uint32_t key,
                                   const void* value,
@@ -142,7 +142,7 @@ static LV2_State_Status keep_path(LV2_State_Handle handle,
   (void)type;
   (void)flags;
   if (key == map_uri(NULL, "urn:hooke:strings#scale")) {
-    assert_true(n_bytes > 0 && n_bytes <= TUNER_PATH_SIZE);
+    assert_true(n_bytes > 0 && n_bytes <= FILES_PATH_SIZE);
     memcpy(path, value, n_bytes);
   }
   return LV2_STATE_SUCCESS;
@@ -151,7 +151,7 @@ static LV2_State_Status keep_path(LV2_State_Handle handle,
 static void* save_all_the_time(void* data) {
   Player* const player = data;
   static const LV2_Feature* const none[] = {NULL};
-  static char path[TUNER_PATH_SIZE];
+  static char path[FILES_PATH_SIZE];
   while (!atomic_load(&player->is_over)) {
     (void)player->state->save(player->handle, keep_path, path, 0, none);
     atomic_fetch_add(&player->n_saves, 1);
@@ -159,9 +159,9 @@ static void* save_all_the_time(void* data) {
   return NULL;
 }
 
-static void path_of(const char* name, char path[TUNER_PATH_SIZE]) {
+static void path_of(const char* name, char path[FILES_PATH_SIZE]) {
   const char* const source = getenv("HOOKE_SOURCE");
-  (void)snprintf(path, TUNER_PATH_SIZE, "%s/tests/scales/%s", source ? source : ".", name);
+  (void)snprintf(path, FILES_PATH_SIZE, "%s/tests/scales/%s", source ? source : ".", name);
 }
 
 /* A note, and a file that is asked for. */
@@ -229,9 +229,10 @@ static void files_load_while_it_runs_and_is_saved(void** state) {
   (void)state;
   static Player player;
   static const LV2_Feature* const none[] = {NULL};
-  static const char* const names[] = {"19-equal.scl", "none.scl", "just-major.scl"};
-  char path[TUNER_PATH_SIZE];
-  char saved[TUNER_PATH_SIZE] = "";
+  static const char* const names[] = {"19-equal.scl", "none.scl", "just-major.scl",
+                                      "../fuzz/seeds/body/guitar.body"};
+  char path[FILES_PATH_SIZE];
+  char saved[FILES_PATH_SIZE] = "";
   pthread_t threads[2];
   uint32_t n_runs = 0;
   player.descriptor = &strings_descriptor;
@@ -239,7 +240,7 @@ static void files_load_while_it_runs_and_is_saved(void** state) {
   assert_int_equal(pthread_create(&threads[0], NULL, do_work, &player), 0);
   assert_int_equal(pthread_create(&threads[1], NULL, save_all_the_time, &player), 0);
   for (; n_runs < MOST_RUNS && atomic_load(&player.n_loads) < N_LOADS; ++n_runs) {
-    path_of(names[n_runs / 8 % 3], path);
+    path_of(names[n_runs / 8 % 4], path);
     run(&player, n_runs % 8 ? NULL : path, (uint8_t)(40 + n_runs % 40));
   }
   path_of("meantone.scl", path);

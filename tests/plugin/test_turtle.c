@@ -213,7 +213,7 @@ static void check_parameters(Host* host) {
   LilvNode* const key = lilv_new_uri(host_world(host), LV2_PATCH__writable);
   LilvNodes* const found =
       lilv_world_find_nodes(host_world(host), lilv_plugin_get_uri(host_plugin(host)), key, NULL);
-  assert_int_equal(lilv_nodes_size(found), 2);
+  assert_int_equal(lilv_nodes_size(found), 3);
   LILV_FOREACH(nodes, i, found) {
     const LilvNode* const parameter = lilv_nodes_get(found, i);
     LilvNode* const range = panel_of(host, parameter, LILV_NS_RDFS "range");

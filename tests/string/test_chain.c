@@ -32,12 +32,22 @@ static const char* const names[] = {"in floats", "in doubles", "in fixed point"}
 
 static _Alignas(CHAIN_ALIGNMENT) char memory[CHAINS_MOST_BYTES];
 
-/* At both ends, at a place, and somewhere between two. */
+/* Those that there are loops for. */
+enum { N_COUNTS = 4 };
+static const uint32_t counts[N_COUNTS] = {1, 2, 4, CHAIN_MAX_TAPS};
+
+/* At both ends, at a place, and somewhere between two; and a velocity. */
 static void choose_taps(uint32_t n, ChainTap taps[CHAIN_MAX_TAPS]) {
-  taps[0] = (ChainTap){{0, n - 1}, {0.25f, 0.5f}};
-  taps[1] = (ChainTap){{n / 2, n / 2}, {1.0f, 0.0f}};
-  taps[2] = (ChainTap){{n - 1, 0}, {-1.0f, 0.5f}};
-  taps[3] = (ChainTap){{n / 3, n / 2}, {0.5f, -0.5f}};
+  taps[0] = (ChainTap){{0, n - 1}, {0.25f, 0.5f}, false};
+  taps[1] = (ChainTap){{n / 2, n / 2}, {1.0f, 0.0f}, false};
+  taps[2] = (ChainTap){{n - 1, 0}, {-1.0f, 0.5f}, false};
+  taps[3] = (ChainTap){{n / 3, n / 2}, {0.5f, -0.5f}, false};
+  taps[4] = (ChainTap){{n / 4, n / 4}, {-0.5f, 1.0f}, false};
+  taps[5] = (ChainTap){{n / 4, n - 1}, {0.5f, -1.0f}, true};
+}
+
+static double read_tap(const ChainTap* tap, const double* of) {
+  return (double)tap->weight[0] * of[tap->mass[0]] + (double)tap->weight[1] * of[tap->mass[1]];
 }
 
 /* What was read, and where the masses are: of the chain, and of the oracle. */
@@ -53,13 +63,29 @@ static void foretell(const Chain* chain, const ChainTap* taps, Motion* motion) {
   double gain = chain->numbers == CHAIN_FIXED ? chain->gain : 1.0;
   chains_read(chain, motion->x, motion->u);
   for (uint32_t n = 0; n < STEPS; ++n) {
+    double before[CHAIN_MAX_TAPS];
+    for (uint32_t t = 0; t < CHAIN_MAX_TAPS; ++t) {
+      before[t] = taps[t].is_velocity ? gain * read_tap(&taps[t], motion->x) : 0.0;
+    }
     oracle_step(coefs, chain->n_masses, motion->x, motion->u);
     gain *= chain->numbers == CHAIN_FIXED ? chain->fade : 1.0;
     for (uint32_t t = 0; t < CHAIN_MAX_TAPS; ++t) {
-      motion->read[t][n] = (float)(gain * ((double)taps[t].weight[0] * motion->x[taps[t].mass[0]] +
-                                           (double)taps[t].weight[1] * motion->x[taps[t].mass[1]]));
+      motion->read[t][n] = (float)(gain * read_tap(&taps[t], motion->x) - before[t]);
     }
   }
+}
+
+/* Buffers for what is read. */
+typedef struct {
+  float* taps[CHAIN_MAX_TAPS];
+} Outputs;
+
+static Outputs outputs_of(float* first, size_t n_frames) {
+  Outputs outputs;
+  for (uint32_t t = 0; t < CHAIN_MAX_TAPS; ++t) {
+    outputs.taps[t] = first + t * n_frames;
+  }
+  return outputs;
 }
 
 /* How far the chain goes from where it should be, over its motion; less what chance may do. */
@@ -76,8 +102,7 @@ static Distance distance_from(const Motion* truth, Chain* chain, uint32_t n_taps
   double worst_read = 0.0;
   choose_taps(n, taps);
   memset(found.read, 0, sizeof(found.read));
-  chain_run(chain, STEPS, taps, n_taps,
-            (float* const[]){found.read[0], found.read[1], found.read[2], found.read[3]});
+  chain_run(chain, STEPS, taps, n_taps, outputs_of(found.read[0], STEPS).taps);
   chains_read(chain, found.x, found.u);
   for (uint32_t t = 0; t < n_taps; ++t) {
     for (uint32_t m = 0; m < STEPS; ++m) {
@@ -101,7 +126,8 @@ static Distance distance_of_scenes(const ChainKernel* kernel, ChainNumbers numbe
   ChainTap taps[CHAIN_MAX_TAPS];
   choose_taps(n, taps);
   for (int scene = 0; scene < N_CHAIN_DAMPINGS * N_CHAIN_ELASTICITIES; ++scene) {
-    for (uint32_t n_taps = 1; n_taps <= CHAIN_MAX_TAPS; n_taps *= 2) {
+    for (int count = 0; count < N_COUNTS; ++count) {
+      const uint32_t n_taps = counts[count];
       Chain chain;
       chains_start(&chain, kernel, memory, numbers, (ChainDamping)(scene % 3),
                    (ChainElasticity)(scene / 3), n);
@@ -199,19 +225,17 @@ static double distance_of_glides(Chain* chain) {
   chains_read(chain, truth.x, truth.u);
   for (int turn = 0; turn < TURNS; ++turn) {
     static float read[CHAIN_MAX_TAPS][TURN_STEPS];
-    const uint32_t n_taps = 1u << (turn % 3);
+    const uint32_t n_taps = counts[turn % N_COUNTS];
     const StringCoefs to = goal_of(turn);
     memset(read, 0, sizeof(read));
     assert_true(chain_hold(chain, turn / 3 % 2 ? CHAIN_DOUBLE : CHAIN_FLOAT));
     chain_glide(chain, to, TURN_STEPS);
-    chain_run(chain, TURN_STEPS, taps, n_taps,
-              (float* const[]){read[0], read[1], read[2], read[3]});
+    chain_run(chain, TURN_STEPS, taps, n_taps, outputs_of(read[0], TURN_STEPS).taps);
     for (int m = 0; m < TURN_STEPS; ++m) {
       glide_step(on_the_way(from, to, (double)m / TURN_STEPS),
                  on_the_way(from, to, (m + 1.0) / TURN_STEPS), n, truth.x, truth.u);
       for (uint32_t t = 0; t < n_taps; ++t) {
-        const double wanted = (double)taps[t].weight[0] * truth.x[taps[t].mass[0]] +
-                              (double)taps[t].weight[1] * truth.x[taps[t].mass[1]];
+        const double wanted = read_tap(&taps[t], taps[t].is_velocity ? truth.u : truth.x);
         worst = fmax(worst, fabs((double)read[t][m] - wanted));
       }
     }

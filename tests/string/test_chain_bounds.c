@@ -44,7 +44,7 @@ static void glide_between_stable_strings_stays_bounded(void** state) {
   (void)state;
   static float out[BLOCK];
   float* const outs[] = {out};
-  const ChainTap tap = {{0, 0}, {0.0f, 0.0f}};
+  const ChainTap tap = {{0, 0}, {0.0f, 0.0f}, false};
   double worst = 0.0;
   Random random = random_start();
   for (int trial = 0; trial < 300; ++trial) {

@@ -68,10 +68,10 @@ static void do_turn(Chain* chain, const Turn* turn) {
 
 static void
 trace(Trace* trace, const ChainKernel* kernel, uint32_t n, uint32_t n_taps, uint32_t cut) {
-  const ChainTap taps[] = {{{0, n - 1}, {0.25f, 0.5f}},
-                           {{n / 2, n / 2}, {1.0f, 0.0f}},
-                           {{n - 1, 0}, {-1.0f, 0.5f}},
-                           {{n / 3, n / 2}, {0.5f, 0.5f}}};
+  const ChainTap taps[] = {
+      {{0, n - 1}, {0.25f, 0.5f}, false},     {{n / 2, n / 2}, {1.0f, 0.0f}, false},
+      {{n - 1, 0}, {-1.0f, 0.5f}, true},      {{n / 3, n / 2}, {0.5f, 0.5f}, false},
+      {{n / 4, n - 1}, {-0.25f, 1.0f}, true}, {{n / 2, n / 5}, {0.5f, 0.5f}, false}};
   Random random = {.state = n};
   Random cuts = {.state = n + 1};
   Chain chain;
@@ -86,8 +86,10 @@ trace(Trace* trace, const ChainKernel* kernel, uint32_t n, uint32_t n_taps, uint
       const uint32_t left = turns[turn + 1].start - done;
       const uint32_t wanted = next_cut(cut, &cuts);
       const uint32_t now = wanted < left ? wanted : left;
-      float* const out[] = {trace->out[0] + done, trace->out[1] + done, trace->out[2] + done,
-                            trace->out[3] + done};
+      float* out[CHAIN_MAX_TAPS];
+      for (uint32_t t = 0; t < CHAIN_MAX_TAPS; ++t) {
+        out[t] = trace->out[t] + done;
+      }
       chain_run(&chain, now, taps, n_taps, out);
       done += now;
     }
@@ -102,11 +104,13 @@ trace(Trace* trace, const ChainKernel* kernel, uint32_t n, uint32_t n_taps, uint
 static void cutting_into_calls_does_not_change_a_bit(void** state) {
   (void)state;
   static const uint32_t cuts[] = {1, 3, 16, 64, 0};
+  static const uint32_t counts[] = {1, 2, 4, CHAIN_MAX_TAPS};
   static Trace whole;
   static Trace cut;
   for (uint32_t kernel = 0; chain_kernel(kernel); ++kernel) {
     for (uint32_t s = 0; s < N_SIZES; ++s) {
-      for (uint32_t n_taps = 1; n_taps <= CHAIN_MAX_TAPS; n_taps *= 2) {
+      for (int count = 0; count < 4; ++count) {
+        const uint32_t n_taps = counts[count];
         trace(&whole, chain_kernel(kernel), sizes[s], n_taps, FRAMES);
         assert_true(whole.out[0][FRAMES - 1] != 0.0f);
         for (size_t c = 0; c < 5; ++c) {
@@ -118,11 +122,23 @@ static void cutting_into_calls_does_not_change_a_bit(void** state) {
   }
 }
 
+static void as_few_taps_as_there_are_loops_for(void** state) {
+  (void)state;
+  static const uint32_t wanted[] = {0, 1, 2, 4, 4, 6, 6};
+  Chain chain;
+  for (uint32_t n_taps = 1; n_taps <= CHAIN_MAX_TAPS; ++n_taps) {
+    assert_int_equal(chain_taps(n_taps), wanted[n_taps]);
+    chain_init(&chain, chain_kernel(0), memory, 9);
+    chain_set(&chain, flexible);
+    assert_true(chain_loop(&chain, chain_taps(n_taps)));
+  }
+}
+
 static void glide_ends_exactly_on_its_goal(void** state) {
   (void)state;
   static float out[FRAMES];
   float* const outs[] = {out};
-  const ChainTap tap = {{0, 0}, {0.0f, 0.0f}};
+  const ChainTap tap = {{0, 0}, {0.0f, 0.0f}, false};
   for (uint32_t n_glide = 0; n_glide < FRAMES - 1; n_glide = 1 + n_glide + n_glide / 3) {
     Chain chain;
     chain_init(&chain, chain_kernel(0), memory, 10);
@@ -197,7 +213,7 @@ static void neighbours_in_memory_are_not_touched(void** state) {
   (void)state;
   static float out[FRAMES];
   float* const outs[] = {out};
-  const ChainTap tap = {{0, 0}, {1.0f, 0.0f}};
+  const ChainTap tap = {{0, 0}, {1.0f, 0.0f}, false};
   Random random = random_start();
   for (uint32_t kernel = 0; chain_kernel(kernel); ++kernel) {
     for (uint32_t n = 1; n <= 1024; n += n < 70 ? 1 : 106) {
@@ -233,7 +249,7 @@ static void taps_are_added_to_what_is_there(void** state) {
   float first[RUN];
   float out[RUN] = {0};
   float* const outs[] = {out};
-  const ChainTap tap = {{3, 11}, {0.75f, -2.0f}};
+  const ChainTap tap = {{3, 11}, {0.75f, -2.0f}, false};
   Random random = random_start();
   Chain chain;
   chain_init(&chain, chain_kernel(0), memory, N);
@@ -272,6 +288,7 @@ static void push_adds_to_velocity_alone(void** state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cutting_into_calls_does_not_change_a_bit),
+      cmocka_unit_test(as_few_taps_as_there_are_loops_for),
       cmocka_unit_test(glide_ends_exactly_on_its_goal),
       cmocka_unit_test(what_is_no_mass_stays_exactly_at_rest),
       cmocka_unit_test(neighbours_in_memory_are_not_touched),

@@ -70,7 +70,7 @@ static double snr_db(Chain* chain, StringCoefs coefs, double seconds, double rat
   float* const outs[] = {out};
   const uint32_t n = chain->n_masses;
   const uint32_t mass = n / 3;
-  const ChainTap tap = {{mass, 0}, {1.0f, 0.0f}};
+  const ChainTap tap = {{mass, 0}, {1.0f, 0.0f}, false};
   Ringing* const modes = calloc(n, sizeof(Ringing));
   double signal = 0.0;
   double noise = 0.0;

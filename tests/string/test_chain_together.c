@@ -50,8 +50,8 @@ static void make_strings(const ChainKernel* kernel, Random* random) {
       if (n_glide > 0) {
         chain_glide(part->chain, goal, n_glide);
       }
-      part->taps[0] = (ChainTap){{n_masses / 3, n_masses - 1}, {0.75f, 0.25f}};
-      part->taps[1] = (ChainTap){{0, n_masses / 2}, {0.5f, 0.5f}};
+      part->taps[0] = (ChainTap){{n_masses / 3, n_masses - 1}, {0.75f, 0.25f}, false};
+      part->taps[1] = (ChainTap){{0, n_masses / 2}, {0.5f, 0.5f}, false};
     }
   }
 }

@@ -133,6 +133,14 @@ static void displacement_is_read_as_ever(void** state) {
   assert_memory_equal(&tap, &plain, sizeof(tap));
 }
 
+static void magnet_reads_velocity_at_the_place(void** state) {
+  (void)state;
+  const ChainTap tap = pickup_tap_of_type(PICKUP_MAGNET, 9, 0.33, 0.1);
+  ChainTap plain = pickup_tap(9, 0.33);
+  plain.is_velocity = true;
+  assert_memory_equal(&tap, &plain, sizeof(tap));
+}
+
 /* Whatever the cuts, and from the sample before on. */
 static void a_difference_is_from_each_sample_to_the_next(void** state) {
   (void)state;
@@ -161,6 +169,7 @@ int main(void) {
       cmocka_unit_test(velocity_has_the_place_and_a_weight),
       cmocka_unit_test(force_is_the_slope_at_the_end),
       cmocka_unit_test(displacement_is_read_as_ever),
+      cmocka_unit_test(magnet_reads_velocity_at_the_place),
       cmocka_unit_test(a_difference_is_from_each_sample_to_the_next),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

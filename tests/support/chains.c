@@ -108,7 +108,7 @@ void chains_start(Chain* chain,
 void chains_run(Chain* chain, uint32_t n_frames) {
   enum { BLOCK = 4096 };
   static float sink[BLOCK];
-  static const ChainTap nowhere = {{0, 0}, {0.0f, 0.0f}};
+  static const ChainTap nowhere = {{0, 0}, {0.0f, 0.0f}, false};
   float* const out[] = {sink};
   for (uint32_t done = 0; done < n_frames; done += BLOCK) {
     chain_run(chain, n_frames - done < BLOCK ? n_frames - done : BLOCK, &nowhere, 1, out);

@@ -62,6 +62,10 @@ GuitarPatch guitar_patch_of(const Host* host) {
       .course = port(host, "course"),
       .noise = port(host, "noise"),
       .width = port(host, "width"),
+      .body = {(BodiesChoice)port(host, "body"),
+               port(host, "body_mix"),
+               {port(host, "body_size"), port(host, "body_damping")},
+               port(host, "knock")},
   };
   for (int i = 0; i < 6; ++i) {
     char symbol[16];

@@ -90,6 +90,10 @@ static GuitarPatch draw_patch(Random* random) {
   patch.palm = random_below(random, 2) ? 0.0 : draw(random, 0.0, 1.0);
   patch.course = random_below(random, 2) ? 0.0 : draw(random, 0.0, 1.0);
   patch.width = draw(random, 0.0, 1.0);
+  patch.body.choice = random_below(random, 2) ? BODIES_NONE : random_below(random, BODIES_COUNT);
+  patch.body.mix = draw(random, 0.0, 1.0);
+  patch.body.shape = (BodyShape){draw(random, 0.5, 2.0), draw(random, 0.25, 4.0)};
+  patch.body.knock = draw(random, 0.0, 1.0);
   patch.is_uncorrected = random_below(random, 4) == 0;
   return patch;
 }

@@ -58,6 +58,22 @@ ScalePath scale_write(const ScalePath* directory, const char* file, const char* 
   return path;
 }
 
+ScalePath scale_write_body(const ScalePath* directory, const char* file, BodiesChoice choice) {
+  enum { MOST_OF_LINE = 160 };
+  static char text[BODY_MAX_MODES * MOST_OF_LINE];
+  const Body* const body = bodies_shipped(choice);
+  size_t n = 0;
+  assert_non_null(body);
+  for (uint32_t k = 0; k < body->n_modes; ++k) {
+    const BodyMode* const mode = &body->modes[k];
+    n += (size_t)snprintf(text + n, sizeof(text) - n, "mode %.17g %.17g %.17g %.17g %.17g\n",
+                          mode->f0_hz, mode->q, mode->mass_kg, mode->radiation[0],
+                          mode->radiation[1]);
+    assert_true(n < sizeof(text));
+  }
+  return scale_write(directory, file, text);
+}
+
 void scale_remove_directory(const ScalePath* directory) {
   DIR* const listing = opendir(directory->text);
   assert_non_null(listing);
@@ -144,7 +160,8 @@ bool scale_told(Host* host, const char* parameter, ScalePath* path) {
   assert_non_null(value);
   assert_non_null(subject);
   assert_int_equal(value->type, host_map(host, LV2_ATOM__Path));
-  assert_int_equal(subject->body, host_map(host, STRINGS_URI));
+  assert_int_equal(subject->body,
+                   host_map(host, lilv_node_as_uri(lilv_plugin_get_uri(host_plugin(host)))));
   assert_true(value->size > 0 && value->size <= sizeof(path->text));
   memcpy(path->text, value + 1, value->size);
   assert_int_equal(path->text[value->size - 1], '\0');

@@ -1,8 +1,9 @@
-/** Tuning files and a hosted instrument: what a panel says and hears, and what is written to the
- * log.  What cannot be done here fails the test. */
+/** A player's files, tunings and bodies, and a hosted instrument: what a panel says and hears, and
+ * what is written to the log.  What cannot be done here fails the test. */
 #ifndef HOOKE_TESTS_SUPPORT_SCALE_HOST_H
 #define HOOKE_TESTS_SUPPORT_SCALE_HOST_H
 
+#include "core/bank/bodies.h"
 #include "tests/support/strings_host.h"
 
 #include <stdbool.h>
@@ -10,6 +11,7 @@
 
 #define SCALE_PARAMETER STRINGS_URI "#scale"
 #define MAPPING_PARAMETER STRINGS_URI "#mapping"
+#define BODY_PARAMETER STRINGS_URI "#body"
 
 enum { SCALE_HOST_PATH = 4096 };
 
@@ -24,6 +26,9 @@ ScalePath scale_path(const char* file);
 /** A new directory for a test's files, and a file written there. */
 ScalePath scale_new_directory(void);
 ScalePath scale_write(const ScalePath* directory, const char* file, const char* text);
+
+/** The same of a body that Hooke brings along, as a table of its modes. */
+ScalePath scale_write_body(const ScalePath* directory, const char* file, BodiesChoice choice);
 
 /** Remove a directory and all in it. */
 void scale_remove_directory(const ScalePath* directory);

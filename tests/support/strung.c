@@ -63,7 +63,7 @@ void strung_up_anywhere(Strung* strung, void* memory, Random* random, ChainNumbe
 }
 
 float strung_step(Strung* strung, uint32_t i) {
-  const ChainTap tap = {{i, i}, {1.0f, 0.0f}};
+  const ChainTap tap = {{i, i}, {1.0f, 0.0f}, false};
   float heard = 0.0f;
   float* const out[] = {&heard};
   chain_run(&strung->chain, 1, &tap, 1, out);

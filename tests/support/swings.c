@@ -82,6 +82,24 @@ GROUP_SWING(unison_detune, unisons, 3.0, 0.0, 20.0)
 GROUP_SWING(second_detune, second, 1.0, 0.0, 30.0)
 GROUP_SWING(second_decay, second, 1.0, 0.25, 4.0)
 
+/* What the strings rest on; it is not heard, for each is heard in its own way. */
+static void rest_on(Host* host, double body, double size) {
+  strings_set(host, "resonance", 0.7);
+  strings_set(host, "body_mix", 0.0);
+  strings_set(host, "body", body);
+  strings_set(host, "body_size", size);
+}
+
+static void go_body(Host* host, uint32_t key, double to) {
+  (void)key;
+  rest_on(host, round(6.0 + 5.0 * to), 1.0);
+}
+
+static void go_body_size(Host* host, uint32_t key, double to) {
+  (void)key;
+  rest_on(host, 1.0, 1.25 + 0.75 * to);
+}
+
 /* All of them, whichever has the note. */
 static void go_open_strings(Host* host, uint32_t key, double to) {
   static const double notes[N_STRINGS] = {64.0, 59.0, 55.0, 50.0, 45.0, 40.0};
@@ -139,6 +157,8 @@ const Swing swings[] = {
     {"hardness", go_hardness, {true, true}, false},
     {"preset", go_preset, {true, true}, false},
     {"resonance", go_resonance, {true, false}, false},
+    {"body", go_body, {true, false}, false},
+    {"body size", go_body_size, {true, false}, false},
     {"unison detune", go_unison_detune, {true, false}, false},
     {"second detune", go_second_detune, {true, false}, false},
     {"second decay", go_second_decay, {true, false}, false},

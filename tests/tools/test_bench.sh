@@ -58,6 +58,15 @@ same "$(awk -F, 'NR > 1 && !$10 { print $5 }' log | sort -u)" "forward Euler" "w
 answer 0 bench survey --seconds 0
 same "$(grep -c '^\(chain\|network\|bank\), ' log)" 20 "lines of the table"
 
+# The more modes are kept of a body, the less it errs, about; and all of them err by nothing.
+answer 0 bench bodies --csv --seconds 0
+heads "body,modes,ns_per_frame,error_db,worst_db"
+same "$(tail -n +2 log | cut -d , -f 1 | sort -u | wc -l)" 11 "bodies"
+awk -F, 'NR > 1 && !(NF == 5 && $3 > 0 && $4 >= 0 && $5 >= $4 && ($1 != last || $4 <= 1.2 * error + 0.05)) { exit 1 } { last = $1; error = $4 }' log ||
+    fail "no likely figures: $(cat log)"
+same "$(awk -F, 'NR > 2 && $1 != last && error != 0 { print last } { last = $1; error = $4 }' log)" "" "errors of whole bodies"
+answer 0 bench bodies --seconds 0
+
 answer 0 bench --host urn:hooke:strings --csv
 heads "notes,ns_per_frame,share_of_core,start_ms"
 numbers 1 5

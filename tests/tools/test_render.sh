@@ -205,7 +205,7 @@ broken_commands_are_refused() {
     refuse 2 "no option '--loud'; try hooke help" modes --loud x.scene
     refuse 2 "no option '--loud'; try hooke help" tune --loud
     refuse 2 "no option '--loud'; try hooke help" bench --loud
-    refuse 2 'found no command, expected render, modes, tune or bench; try hooke --help'
+    refuse 2 'found no command, expected render, modes, body, tune or bench; try hooke --help'
     refuse 2 "found 'play', expected a command" play
     refuse 2 "found 'play', expected a command" help play
     refuse 2 'found no input' render
@@ -283,6 +283,28 @@ files_tune_both_instruments() {
     done
 }
 
+# Whatever a preset says; --set has the last word.
+the_body_of_a_file_is_heard() {
+    printf 'mode 260 30 0.1 1 0.8\nabove 400 density 0.02 q 30 mass 0.1 radiation 1 seed 1 to 4000\n' >box.body
+    render note.mid out/none.wav || return
+    render --body box.body note.mid out/body.wav || return
+    render --body box.body --preset 'Concert Harp' --set body_mix=1 note.mid out/preset.wav || return
+    render --preset 'Concert Harp' --set body_mix=1 --set body=File note.mid out/no_file.wav || return
+    render --body box.body --set body=None note.mid out/set.wav || return
+    ! cmp -s out/none.wav out/body.wav || fail "no body is heard"
+    ! cmp -s out/preset.wav out/no_file.wav || fail "no body is heard with a preset"
+    cmp out/none.wav out/set.wav || fail "--set has not the last word"
+    render --plugin urn:hooke:guitar --body box.body note.mid out/guitar.wav || return
+}
+
+broken_bodies_are_refused() {
+    printf 'mode 100 20 1 1 1\nmode 200 x 1 1 1\n' >broken.body
+    refuse 1 "broken.body:2: found 'x', expected a Q from" render --body broken.body note.mid out/a.wav
+    refuse 1 'nowhere.body:1: found no text (No such file or directory)' render --body nowhere.body note.mid out/a.wav
+    refuse 2 'found --body for a scene' render --body broken.body a.scene out/a.wav
+    test ! -e out/a.wav || fail "a broken body leaves a sound"
+}
+
 broken_scales_are_refused() {
     printf 'two\n2\n3/2\nsecond\n' >broken.scl
     refuse 1 "broken.scl:4: found 'second', expected pitch 2 of 2" render --scale broken.scl note.mid out/a.wav
@@ -321,6 +343,8 @@ for claim in \
     the_plugin_beside_the_program_is_found \
     help_and_version_are_answers \
     files_tune_both_instruments \
+    the_body_of_a_file_is_heard \
+    broken_bodies_are_refused \
     broken_scales_are_refused \
     the_demo_is_music; do
     echo "$claim"

@@ -56,7 +56,7 @@ what_was_meant_is_asked() {
     refuse 2 'did you mean --version?' version
     refuse 2 "hooke: found 'render' too, expected one command" help tune render
     refuse 1 "plugin 'guitar': found no URI, expected one, as urn:hooke:guitar" render --plugin guitar note.mid out/x.wav
-    refuse 2 'hooke: found '\''rendr'\'', expected a command, render, modes, tune or bench; try hooke --help; did you mean render?' rendr
+    refuse 2 'hooke: found '\''rendr'\'', expected a command, render, modes, body, tune or bench; try hooke --help; did you mean render?' rendr
     refuse 2 "found 'bridges', expected the symbol of a control input, which --list-controls names" render --set bridges=1 note.mid out/x.wav
     ! grep -q 'did you mean' errors || fail "what is far away was meant: '$(cat errors)'"
 }

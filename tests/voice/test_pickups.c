@@ -79,7 +79,7 @@ static double worst_of(Pickups* pickups, uint32_t n_fade, const double* from, co
   static float heard[PICKUPS][FRAMES];
   float none;
   float* const nowhere[] = {&none};
-  const ChainTap tap = {{0, 0}, {1.0f, 0.0f}};
+  const ChainTap tap = {{0, 0}, {1.0f, 0.0f}, false};
   double worst = 0.0;
   ring(&chain, memory);
   ring(&twin, other_memory);

@@ -71,7 +71,7 @@ static double rise_of(double amplitude, double tension, double* square) {
   const VoiceAim aim = aim_of(LOW_E_HZ, 5.0, tension);
   Voice voice;
   string_it(&voice, 0, &aim);
-  voice_push(&voice, (Pluck){0.13, 0.7, amplitude, 0.0});
+  voice_pluck(&voice, (Pluck){0.13, 0.7, amplitude, 0.0});
   *square = square_of(&voice);
   return cents_above(&voice, voice.chain.goal, LOW_E_HZ);
 }
@@ -97,7 +97,7 @@ static void it_is_two_semitones_at_most(void** state) {
   (void)state;
   double square = 0.0;
   assert_within("off two semitones", fabs(rise_of(1.0, 100.0, &square) - 200.0), 1e-6);
-  assert_true(100.0 * square > 1e3);
+  assert_true(100.0 * square / (TENSION_AMPLITUDE * TENSION_AMPLITUDE) > 1e3);
 }
 
 /* Beside one that does not stretch, plucked alike: what it has, at all times. */
@@ -109,7 +109,7 @@ static void it_dies_as_if_it_were_not(void** state) {
   Voice voices[2];
   for (int i = 0; i < 2; ++i) {
     string_it(&voices[i], i, &aims[i]);
-    voice_push(&voices[i], (Pluck){0.13, 0.5, 0.25, 0.0});
+    voice_pluck(&voices[i], (Pluck){0.13, 0.5, 0.25, 0.0});
   }
   for (int step = 0; step < 300; ++step) {
     run(&voices[0], 0.01);
@@ -132,7 +132,7 @@ static void what_is_plucked_again_and_again_is_no_richer(void** state) {
   string_it(&voice, 0, &aim);
   for (int note = 0; note < 64; ++note) {
     const double a = tuning_mode(voice.chain.now, N_MASSES, 1).a;
-    voice_push(&voice, (Pluck){0.13, 0.5, 0.25, 0.0});
+    voice_pluck(&voice, (Pluck){0.13, 0.5, 0.25, 0.0});
     explained += 4.0 * (voice_work(&voice) - work) / ((N_MASSES + 1.0) * a * (1.0 - 0.25 * a));
     work = voice_work(&voice);
     for (int step = 0; step < 25; ++step) {
@@ -160,7 +160,7 @@ static void once_it_has_died_it_is_as_if_it_had_never_been(void** state) {
       if (kind) {
         voice_strike(&voices[i], (Strike){0.13, 0.5, 0.25, 0.25});
       } else {
-        voice_push(&voices[i], (Pluck){0.13, 0.5, 0.25, 0.0});
+        voice_pluck(&voices[i], (Pluck){0.13, 0.5, 0.25, 0.0});
       }
       run(&voices[i], 0.05);
     }
@@ -200,7 +200,7 @@ static void a_bow_brings_it_to_its_pitch(void** state) {
   (void)state;
   Voice voice;
   string_it(&voice, 0, &aim);
-  voice_push(&voice, (Pluck){0.13, 0.5, 0.25, 0.0});
+  voice_pluck(&voice, (Pluck){0.13, 0.5, 0.25, 0.0});
   run(&voice, 0.1);
   assert_true(cents_above(&voice, voice.chain.now, LOW_E_HZ) > 10.0);
   voice_bow(&voice, (Stroke){0.12, 0.5, 0.2, 0.04, 0.03}, &aim.open);
@@ -217,7 +217,7 @@ static void it_multiplies_what_is_asked_for(void** state) {
     const VoiceAim bent = aim_of(LOW_E_HZ * exp2(bend / 12.0), 1e4, 60.0);
     Voice voice;
     string_it(&voice, 0, &aim);
-    voice_push(&voice, (Pluck){0.13, 0.3, 0.1, 0.0});
+    voice_pluck(&voice, (Pluck){0.13, 0.3, 0.1, 0.0});
     run(&voice, 0.05);
     const double before = cents_above(&voice, voice.chain.now, LOW_E_HZ);
     voice_aim(&voice, &bent, 100000);
@@ -238,7 +238,7 @@ static void play_cut(uint32_t block, float* heard, uint32_t n_frames) {
   for (uint32_t done = 0, event = 0; done < n_frames; ++event) {
     const uint32_t end = done + 1777;
     if (event % 3 == 0) {
-      voice_push(&voice, (Pluck){0.13, 0.5, 0.2, 0.0});
+      voice_pluck(&voice, (Pluck){0.13, 0.5, 0.2, 0.0});
     } else if (event % 7 == 0) {
       voice_strike(&voice, (Strike){0.13, 0.5, 0.25, 0.2});
     } else {
@@ -273,7 +273,7 @@ static void what_cannot_be_sharp_is_in_tune(void** state) {
   (void)state;
   Voice voice;
   string_it(&voice, 0, &aim);
-  voice_push(&voice, (Pluck){0.13, 0.5, 5.0, 0.0});
+  voice_pluck(&voice, (Pluck){0.13, 0.5, 5.0, 0.0});
   run(&voice, 0.01);
   assert_true(voice.is_awake && !voice.is_choked);
   assert_within("pitch [cents]", fabs(cents_above(&voice, voice.chain.now, f0_hz)), 1e-6);

@@ -1,6 +1,7 @@
 #include "tools/bench/bench.h"
 
 #include "tools/bench/bench_block.h"
+#include "tools/bench/bench_bodies.h"
 #include "tools/bench/bench_clock.h"
 #include "tools/bench/bench_count.h"
 #include "tools/bench/bench_host.h"
@@ -35,6 +36,7 @@ const char bench_help[] =
     "  survey   error against run time: the pitch, the decay, the partials and the noise of a\n"
     "           string, made in every way: as a chain in each kind of numbers with each kind of\n"
     "           partials, under other schemes, as a bank of its modes\n"
+    "  bodies   error against run time of every body, of as many of its modes as are kept\n"
     "\n"
     "  --scene WORDS    scenes: only those with all WORDS, with - between: bending, "
     "ground-still-2\n"
@@ -75,7 +77,7 @@ typedef struct {
 
 static const Part parts[] = {
     {"scenes", 9.0, bench_table}, {"loads", 4.0, bench_load},    {"start", 0.0, bench_start},
-    {"blocks", 0.0, bench_block}, {"survey", 4.0, bench_survey},
+    {"blocks", 0.0, bench_block}, {"survey", 4.0, bench_survey}, {"bodies", 1.0, bench_bodies},
 };
 enum { N_PARTS = sizeof(parts) / sizeof(parts[0]) };
 

@@ -191,7 +191,7 @@ bool bench_string_start(BenchString* string, uint32_t n_frames) {
 
 void bench_string_run(BenchString* string, uint32_t n_frames) {
   const uint32_t n_masses = string->chain.n_masses;
-  const ChainTap tap = {{n_masses / 3, n_masses / 3 + (n_masses > 3)}, {0.3f, 0.7f}};
+  const ChainTap tap = {{n_masses / 3, n_masses / 3 + (n_masses > 3)}, {0.3f, 0.7f}, false};
   const ChainTap taps[2] = {tap, tap};
   float mix[2][BENCH_RUN_FRAMES] = {{0}};
   float* const out[2] = {mix[0], mix[1]};

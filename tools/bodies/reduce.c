@@ -83,12 +83,14 @@ static Part join(const Part* parts, uint32_t n) {
 static BodyMode mode_of(const Scene* scene, const Part* part) {
   const double f0_hz = part->omega / (2.0 * PI);
   const double loss = 1.0 / law_at(scene, f0_hz) + part->damping / part->omega;
-  return (BodyMode){
+  BodyMode mode = {
       .f0_hz = f0_hz,
       .q = fmax(LEAST_Q, 1.0 / loss),
       .mass_kg = 1.0 / (part->bridge * part->bridge),
       .radiation = {part->heard[0] / part->bridge, part->heard[1] / part->bridge},
   };
+  body_narrow(&mode);
+  return mode;
 }
 
 /* How much is heard of a mode: the square of its peak, and how wide it is beside its frequency. */

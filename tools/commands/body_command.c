@@ -60,7 +60,7 @@ static bool parse(Command* self) {
 }
 
 static double peak_db(const Body* body, const BodyMode* mode) {
-  return 10.0 * log10(body_gain_square(body, mode->f0_hz));
+  return 10.0 * log10(body_gain_square(body, (BodyShape){1.0, 1.0}, mode->f0_hz));
 }
 
 static void print_csv(const Body* body) {

@@ -1,7 +1,8 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "core/analysis/modes.h"
-#include "plugin/tuner_file.h"
+#include "core/bank/bodies.h"
+#include "plugin/files_read.h"
 #include "tools/bench/bench_clock.h"
 #include "tools/commands/args.h"
 #include "tools/commands/commands.h"
@@ -47,6 +48,9 @@ const char render_help[] =
     "                      preset and what a score sets; may be repeated\n"
     "  --scale FILE        tune the keys to a Scala file (.scl); of hooke's own plugins\n"
     "  --mapping FILE      map them by a Scala file (.kbm)\n"
+    "  --body FILE         hear the body that a table of modes says (.body), unless --set "
+    "body=NAME\n"
+    "                      chooses another\n"
     "  --block N           frames in a block, 256 by default\n"
     "  --tail S            seconds after the end; auto, the default: until it has died away by\n"
     "                      80 dB, at most a minute\n"
@@ -82,11 +86,11 @@ typedef struct {
   Args args;
   const char* in;
   const char* out;
-  Kind kind;                         /* Of `in` */
-  const char* preset;                /* NULL: none */
-  const char* plugin;                /* Its URI */
-  const char* tuning[TUNER_N_FILES]; /* NULL: none */
-  const char** sets;                 /* In the order given */
+  Kind kind;                      /* Of `in` */
+  const char* preset;             /* NULL: none */
+  const char* plugin;             /* Its URI */
+  const char* files[FILES_COUNT]; /* NULL: none */
+  const char** sets;              /* In the order given */
   size_t n_sets;
   long rate_hz;            /* 0: the usual one */
   long block;              /* [frames] */
@@ -119,7 +123,8 @@ enum {
   GAIN,
   NORMALIZE,
   SCALE,
-  MAPPING
+  MAPPING,
+  BODY
 };
 
 static const struct option options[] = {{"preset", required_argument, NULL, PRESET},
@@ -137,6 +142,7 @@ static const struct option options[] = {{"preset", required_argument, NULL, PRES
                                         {"normalize", optional_argument, NULL, NORMALIZE},
                                         {"scale", required_argument, NULL, SCALE},
                                         {"mapping", required_argument, NULL, MAPPING},
+                                        {"body", required_argument, NULL, BODY},
                                         {0}};
 
 static bool has_ending(const char* path, const char* ending) {
@@ -236,10 +242,13 @@ static bool take_option(Render* self, int found) {
   case LIST_CONTROLS:
     return self->lists_controls = true;
   case SCALE:
-    self->tuning[TUNER_SCALE] = value;
+    self->files[FILES_SCALE] = value;
     return true;
   case MAPPING:
-    self->tuning[TUNER_MAPPING] = value;
+    self->files[FILES_MAPPING] = value;
+    return true;
+  case BODY:
+    self->files[FILES_BODY] = value;
     return true;
   default:
     return self->lists_presets = true;
@@ -392,27 +401,34 @@ static int load_preset(const Render* self, const Score* score, Host* host) {
 }
 
 /* The plugin plays on without a file that is not as it should be; who asked for it is to know. */
-static bool is_good_file(const Render* self, TunerFile file) {
-  TunerContent content;
-  TunerFault fault;
-  tuner_file_read(self->tuning[file], file, true, &content, &fault);
+static bool is_good_file(const Render* self, FilesKind file) {
+  FilesContent content;
+  FilesFault fault;
+  files_read(self->files[file], file, true, &content, &fault);
   scale_free(&content.scale);
   scale_map_free(&content.map);
   return content.is_good || args_fail(&self->args, false, "%s", fault.line);
 }
 
-static int tune(const Render* self, Host* host) {
-  static const char* const names[] = {"scale", "mapping"};
-  for (int f = 0; f < TUNER_N_FILES; ++f) {
+/* What --set says is set later. */
+static void choose_body(const Render* self, Host* host) {
+  if (self->files[FILES_BODY]) {
+    (void)host_set(host, "body", BODIES_FILE);
+  }
+}
+
+static int load_files(const Render* self, Host* host) {
+  static const char* const names[FILES_COUNT] = {"scale", "mapping", "body"};
+  for (int f = 0; f < FILES_COUNT; ++f) {
     char parameter[256];
-    if (!self->tuning[f]) {
+    if (!self->files[f]) {
       continue;
     }
-    if (!is_good_file(self, (TunerFile)f)) {
+    if (!is_good_file(self, (FilesKind)f)) {
       return ARGS_FAILURE;
     }
     (void)snprintf(parameter, sizeof(parameter), "%s#%s", self->plugin, names[f]);
-    if (!host_set_file(host, parameter, self->tuning[f])) {
+    if (!host_set_file(host, parameter, self->files[f])) {
       return args_fail(&self->args, ARGS_USAGE, "--%s: %s", names[f], host_error(host));
     }
   }
@@ -433,13 +449,14 @@ static int prepare(const Render* self, const Score* score, Host* host) {
   if (score && !set_as_score_says(self, score, host)) {
     return ARGS_FAILURE;
   }
+  choose_body(self, host);
   const Args args = {.command = "hooke render: --set"};
   for (size_t i = 0; i < self->n_sets; ++i) {
     if (!settings_apply(&args, host, self->sets[i])) {
       return ARGS_USAGE;
     }
   }
-  return tune(self, host);
+  return load_files(self, host);
 }
 
 static int play_with_host(const Render* self, PlaySong song, const Score* score) {

@@ -33,11 +33,13 @@
                                      a bar glued to a plate, along a row, column or diagonal [N m²]
        air NAME mass KG area S volume V walls PLATE...
                                      the air of a box of V [m³]: what of it moves in its hole, a
-   mass of S [m²], and the plates outwards change its volume bridge MASS WEIGHT            where
-   strings pull, by shares of their force radiate NAME GAIN             a plate, membrane or air
-   that is heard loss HZ Q                     the Q of modes, besides what dampers do: on a
-   straight line between two of these where both axes are logarithmic above HZ density ... modes by
-   chance, where the network ends, as in a table (core/bank/body_read.h)
+                                     mass of S [m²], and the plates outwards change its volume
+       bridge MASS WEIGHT            where strings pull, by shares of their force
+       radiate NAME GAIN             a plate, membrane or air that is heard
+       loss HZ Q                     the Q of modes, besides what dampers do: on a straight line
+                                     between two of these where both axes are logarithmic
+       above HZ density ...          modes by chance, where the network ends, as in a table
+                                     (core/bank/body_read.h)
 
    Thread: any, one at a time for each scene.
 */

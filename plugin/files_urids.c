@@ -1,4 +1,4 @@
-#include "plugin/tuner_urids.h"
+#include "plugin/files_urids.h"
 
 #include <lv2/atom/atom.h>
 #include <lv2/log/log.h>
@@ -9,10 +9,11 @@ static LV2_URID urid(const LV2_URID_Map* map, const char* uri) {
   return map->map(map->handle, uri);
 }
 
-TunerUrids tuner_urids(const LV2_URID_Map* map, const TunerNames* names) {
-  return (TunerUrids){
+FilesUrids files_urids(const LV2_URID_Map* map, const FilesNames* names) {
+  return (FilesUrids){
       .plugin = urid(map, names->plugin),
-      .files = {urid(map, names->files[TUNER_SCALE]), urid(map, names->files[TUNER_MAPPING])},
+      .files = {urid(map, names->files[FILES_SCALE]), urid(map, names->files[FILES_MAPPING]),
+                urid(map, names->files[FILES_BODY])},
       .atom_Blank = urid(map, LV2_ATOM__Blank),
       .atom_Object = urid(map, LV2_ATOM__Object),
       .atom_Path = urid(map, LV2_ATOM__Path),

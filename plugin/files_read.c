@@ -1,6 +1,8 @@
 #define _POSIX_C_SOURCE 200809L
 
-#include "plugin/tuner_file.h"
+#include "plugin/files_read.h"
+
+#include "core/bank/body_read.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -70,20 +72,29 @@ static bool read_text(const char* path, Text* text) {
   return is_read;
 }
 
-static void make_printable(TunerFault* fault) {
+static void make_printable(FilesFault* fault) {
   for (char* c = fault->line; *c; ++c) {
     *c = (unsigned char)*c < ' ' || *c == 127 ? '?' : *c;
   }
 }
 
-static void complain_of_file(const char* path, TunerFile file, TunerFault* fault) {
-  static const char* const names[] = {"scale (.scl)", "mapping (.kbm)"};
-  (void)snprintf(fault->line, sizeof(fault->line), "%s:1: found no text (%s), expected a Scala %s",
-                 path, strerror(errno), names[file]);
+/* What is not plain was not opened, so the system has no words for it. */
+static const char* reason(int why) {
+  return why == EINVAL ? "not a plain file" : strerror(why);
+}
+
+static void complain_of_file(const char* path, FilesKind file, FilesFault* fault) {
+  static const char* const names[FILES_COUNT] = {
+      [FILES_SCALE] = "a Scala scale (.scl)",
+      [FILES_MAPPING] = "a Scala mapping (.kbm)",
+      [FILES_BODY] = "a table of modes (.body)",
+  };
+  (void)snprintf(fault->line, sizeof(fault->line), "%s:1: found no text (%s), expected %s", path,
+                 reason(errno), names[file]);
 }
 
 static void
-complain_of_text(const char* path, const ScaleError* error, bool may_quote, TunerFault* fault) {
+complain_of_text(const char* path, const ScaleError* error, bool may_quote, FilesFault* fault) {
   (void)snprintf(fault->line, sizeof(fault->line), "%s:%u: %s%s%sexpected %s", path, error->line,
                  may_quote ? "found " : "", may_quote ? error->found : "", may_quote ? ", " : "",
                  error->expected);
@@ -96,36 +107,68 @@ static bool ends_with(const char* path, const char* ending) {
 }
 
 /* false: its ending does not say. */
-static bool has_known_ending(const char* path, TunerFile* file) {
-  const bool is_mapping = ends_with(path, ".kbm");
-  *file = is_mapping ? TUNER_MAPPING : TUNER_SCALE;
-  return is_mapping || ends_with(path, ".scl") || ends_with(path, ".ascl");
+static bool has_known_ending(const char* path, FilesKind* file) {
+  static const struct {
+    const char* ending;
+    FilesKind file;
+  } known[] = {{".scl", FILES_SCALE},
+               {".ascl", FILES_SCALE},
+               {".kbm", FILES_MAPPING},
+               {".body", FILES_BODY}};
+  for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); ++i) {
+    if (ends_with(path, known[i].ending)) {
+      *file = known[i].file;
+      return true;
+    }
+  }
+  return false;
 }
 
-static bool read_as(const Text* text, TunerFile file, TunerContent* content, ScaleError* error) {
+static bool read_body(const Text* text, Body* body, ScaleError* error) {
+  BodyError wrong;
+  if (!body_read(text->bytes, text->n_bytes, body, &wrong)) {
+    return true;
+  }
+  error->line = wrong.line;
+  (void)snprintf(error->found, sizeof(error->found), "%s", wrong.found);
+  (void)snprintf(error->expected, sizeof(error->expected), "%s", wrong.expected);
+  return false;
+}
+
+static bool read_as(const Text* text, FilesKind file, FilesContent* content, ScaleError* error) {
   content->file = file;
-  content->is_good = file == TUNER_MAPPING
-                         ? !scale_map_read(text->bytes, text->n_bytes, &content->map, error)
-                         : !scale_read(text->bytes, text->n_bytes, &content->scale, error);
+  switch (file) {
+  case FILES_SCALE:
+    content->is_good = !scale_read(text->bytes, text->n_bytes, &content->scale, error);
+    break;
+  case FILES_MAPPING:
+    content->is_good = !scale_map_read(text->bytes, text->n_bytes, &content->map, error);
+    break;
+  case FILES_BODY:
+  case FILES_COUNT:
+    content->is_good = read_body(text, &content->body, error);
+    break;
+  }
   return content->is_good;
 }
 
-/* What reads as a mapping may read as a scale of no notes, but not the other way. */
+/* What reads as a mapping may read as a scale of no notes, but not the other way; a body, whose
+ * lines begin with words, as neither. */
 static void
-read_whatever(const Text* text, TunerFile asked, TunerContent* content, ScaleError* error) {
-  if (!read_as(text, TUNER_MAPPING, content, error) &&
-      !read_as(text, TUNER_SCALE, content, error)) {
+read_whatever(const Text* text, FilesKind asked, FilesContent* content, ScaleError* error) {
+  if (!read_as(text, FILES_MAPPING, content, error) &&
+      !read_as(text, FILES_SCALE, content, error) && !read_as(text, FILES_BODY, content, error)) {
     (void)read_as(text, asked, content, error);
   }
 }
 
-void tuner_file_read(
-    const char* path, TunerFile asked, bool may_quote, TunerContent* content, TunerFault* fault) {
+void files_read(
+    const char* path, FilesKind asked, bool may_quote, FilesContent* content, FilesFault* fault) {
   Text text = {NULL, 0};
   ScaleError error;
-  TunerFile file = asked;
+  FilesKind file = asked;
   const bool is_known = has_known_ending(path, &file);
-  *content = (TunerContent){.file = is_known ? file : asked};
+  *content = (FilesContent){.file = is_known ? file : asked};
   if (!read_text(path, &text)) {
     complain_of_file(path, content->file, fault);
     make_printable(fault);

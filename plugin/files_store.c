@@ -1,6 +1,6 @@
 #define _POSIX_C_SOURCE 200809L
 
-#include "plugin/tuner_store.h"
+#include "plugin/files_store.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static double semitones_of(uint32_t key, double hz) {
 }
 
 /* The readers leave nothing that cannot be tuned. */
-static void tune(const TunerStore* store, double semitones[SCALE_KEYS]) {
+static void tune(const FilesStore* store, double semitones[SCALE_KEYS]) {
   double hz[SCALE_KEYS];
   for (uint32_t key = 0; key < SCALE_KEYS; ++key) {
     hz[key] = (double)NAN;
@@ -28,51 +28,78 @@ static void tune(const TunerStore* store, double semitones[SCALE_KEYS]) {
   }
 }
 
-static void write_table(const TunerStore* store, TunerTable* table) {
+static void write_table(const FilesStore* store, FilesTable* table) {
   tune(store, table->semitones);
+  table->body = store->body;
   table->paths = store->paths;
-  table->n_wishes = store->n_wishes;
+  table->counts = store->counts;
 }
 
-static void hand_over(TunerStore* store) {
+static void hand_over(FilesStore* store) {
   write_table(store, &store->tables[store->written]);
   const uint32_t passed =
       atomic_exchange_explicit(&store->between, store->written | IS_NEW, memory_order_acq_rel);
   store->written = passed & INDEX;
 }
 
-static void keep_path(TunerStore* store, TunerFile file, const char* path) {
+static void keep_path(FilesStore* store, FilesKind file, const char* path) {
   char* const kept = store->paths.path[file];
-  const size_t n_bytes = strnlen(path, TUNER_PATH_SIZE - 1);
+  const size_t n_bytes = strnlen(path, FILES_PATH_SIZE - 1);
   memcpy(kept, path, n_bytes);
   kept[n_bytes] = '\0';
 }
 
-static void forget(TunerStore* store, TunerFile file) {
+static void forget(FilesStore* store, FilesKind file) {
   keep_path(store, file, "");
-  if (file == TUNER_SCALE) {
+  switch (file) {
+  case FILES_SCALE:
     scale_free(&store->scale);
     scale_equal(&store->scale);
-  } else {
+    break;
+  case FILES_MAPPING:
     scale_map_free(&store->map);
     scale_map_linear(&store->map);
+    break;
+  case FILES_BODY:
+  case FILES_COUNT:
+    store->body.n_modes = 0;
+    break;
+  }
+  store->counts.n_tunings += file == FILES_BODY ? 0 : 1;
+}
+
+static void take_content(FilesStore* store, const FilesContent* content) {
+  switch (content->file) {
+  case FILES_SCALE:
+    store->scale = content->scale;
+    break;
+  case FILES_MAPPING:
+    store->map = content->map;
+    break;
+  case FILES_BODY:
+  case FILES_COUNT:
+    store->body = content->body;
+    break;
   }
 }
 
 static void
-take_file(TunerStore* store, TunerFile asked, const char* path, bool is_wish, TunerFault* fault) {
-  TunerContent content;
-  tuner_file_read(path, asked, is_wish, &content, fault);
+take_file(FilesStore* store, FilesKind asked, const char* path, bool is_wish, FilesFault* fault) {
+  FilesContent content;
+  files_read(path, asked, is_wish, &content, fault);
   forget(store, content.file);
   keep_path(store, content.file, path);
-  if (content.is_good && content.file == TUNER_SCALE) {
-    store->scale = content.scale;
-  } else if (content.is_good) {
-    store->map = content.map;
+  if (content.is_good) {
+    take_content(store, &content);
   }
 }
 
-bool tuner_store_init(TunerStore* store) {
+/* All else of a body follows from its modes. */
+static bool is_same_body(const Body* a, const Body* b) {
+  return a->n_modes == b->n_modes && !memcmp(a->modes, b->modes, a->n_modes * sizeof(BodyMode));
+}
+
+bool files_store_init(FilesStore* store) {
   memset(store, 0, sizeof(*store));
   if (pthread_mutex_init(&store->lock, NULL)) {
     return false;
@@ -86,40 +113,42 @@ bool tuner_store_init(TunerStore* store) {
   return true;
 }
 
-void tuner_store_clear(TunerStore* store) {
+void files_store_clear(FilesStore* store) {
   scale_free(&store->scale);
   scale_map_free(&store->map);
   (void)pthread_mutex_destroy(&store->lock);
 }
 
-void tuner_store_load(TunerStore* store,
-                      const char* const paths[TUNER_N_FILES],
+void files_store_load(FilesStore* store,
+                      const char* const paths[FILES_COUNT],
                       bool is_wish,
-                      TunerFaults* faults) {
+                      FilesFaults* faults) {
   (void)pthread_mutex_lock(&store->lock);
-  for (int f = 0; f < TUNER_N_FILES; ++f) {
+  const Body before = store->body;
+  for (int f = 0; f < FILES_COUNT; ++f) {
     faults->fault[f].line[0] = '\0';
     if (paths[f] && !*paths[f]) {
-      forget(store, (TunerFile)f);
+      forget(store, (FilesKind)f);
     }
   }
-  for (int f = 0; f < TUNER_N_FILES; ++f) {
+  for (int f = 0; f < FILES_COUNT; ++f) {
     if (paths[f] && *paths[f]) {
-      take_file(store, (TunerFile)f, paths[f], is_wish, &faults->fault[f]);
+      take_file(store, (FilesKind)f, paths[f], is_wish, &faults->fault[f]);
     }
   }
-  store->n_wishes += is_wish ? 1 : 0;
+  store->counts.n_wishes += is_wish ? 1 : 0;
+  store->counts.n_bodies += is_same_body(&before, &store->body) ? 0 : 1;
   hand_over(store);
   (void)pthread_mutex_unlock(&store->lock);
 }
 
-void tuner_store_paths(TunerStore* store, TunerPaths* paths) {
+void files_store_paths(FilesStore* store, FilesPaths* paths) {
   (void)pthread_mutex_lock(&store->lock);
   *paths = store->paths;
   (void)pthread_mutex_unlock(&store->lock);
 }
 
-bool tuner_store_take(TunerStore* store) {
+bool files_store_take(FilesStore* store) {
   if (!(atomic_load_explicit(&store->between, memory_order_relaxed) & IS_NEW)) {
     return false;
   }
@@ -129,6 +158,6 @@ bool tuner_store_take(TunerStore* store) {
   return true;
 }
 
-const TunerTable* tuner_store_table(const TunerStore* store) {
+const FilesTable* files_store_table(const FilesStore* store) {
   return &store->tables[store->played];
 }

@@ -1,6 +1,6 @@
 #define _POSIX_C_SOURCE 200809L
 
-#include "plugin/tuner_state.h"
+#include "plugin/files_state.h"
 
 #include <lv2/core/lv2_util.h>
 
@@ -41,7 +41,7 @@ static LV2_State_Status put(Slot slot, const char* text, LV2_URID type, uint32_t
 
 /* A path that the host has not mapped means nothing on another machine. */
 static LV2_State_Status
-put_path(const TunerUrids* urids, Slot slot, const char* path, const Paths* paths) {
+put_path(const FilesUrids* urids, Slot slot, const char* path, const Paths* paths) {
   const uint32_t portable = LV2_STATE_IS_POD | LV2_STATE_IS_PORTABLE;
   if (!*path) {
     return put(slot, path, urids->atom_Path, portable);
@@ -55,14 +55,14 @@ put_path(const TunerUrids* urids, Slot slot, const char* path, const Paths* path
   return status;
 }
 
-static bool is_path(const TunerUrids* urids, uint32_t type, size_t length) {
-  return (type == urids->atom_Path || type == urids->atom_String) && length < TUNER_PATH_SIZE;
+static bool is_path(const FilesUrids* urids, uint32_t type, size_t length) {
+  return (type == urids->atom_Path || type == urids->atom_String) && length < FILES_PATH_SIZE;
 }
 
 /* Copy what is stored for a file to `path`; false if nothing is. */
-static bool fetch(const TunerUrids* urids,
+static bool fetch(const FilesUrids* urids,
                   int file,
-                  char path[TUNER_PATH_SIZE],
+                  char path[FILES_PATH_SIZE],
                   LV2_State_Retrieve_Function retrieve,
                   LV2_State_Handle handle,
                   LV2_State_Status* status) {
@@ -88,48 +88,50 @@ static bool is_of_host(const char* path) {
   return length > n && !strcmp(path + length - n, ending);
 }
 
-static void make_absolute(char path[TUNER_PATH_SIZE], const Paths* paths) {
+static void make_absolute(char path[FILES_PATH_SIZE], const Paths* paths) {
   char* const absolute =
       *path && paths->map ? paths->map->absolute_path(paths->map->handle, path) : NULL;
   if (absolute) {
-    const size_t length = strnlen(absolute, TUNER_PATH_SIZE - 1);
+    const size_t length = strnlen(absolute, FILES_PATH_SIZE - 1);
     memcpy(path, absolute, length);
     path[length] = '\0';
     free_path(paths, absolute);
   }
 }
 
-LV2_State_Status tuner_state_save(Tuner* tuner,
+LV2_State_Status files_state_save(Files* files,
                                   LV2_State_Store_Function store,
                                   LV2_State_Handle handle,
                                   const LV2_Feature* const* features) {
   const Paths paths = paths_of(features);
   LV2_State_Status status = LV2_STATE_SUCCESS;
-  TunerPaths now;
-  tuner_store_paths(&tuner->store, &now);
-  for (int f = 0; f < TUNER_N_FILES && !status; ++f) {
-    const Slot slot = {store, handle, tuner->urids.files[f]};
-    status = put_path(&tuner->urids, slot, now.path[f], &paths);
+  FilesPaths now;
+  files_store_paths(&files->store, &now);
+  for (int f = 0; f < FILES_COUNT && !status; ++f) {
+    const Slot slot = {store, handle, files->urids.files[f]};
+    status = put_path(&files->urids, slot, now.path[f], &paths);
   }
   return status;
 }
 
-LV2_State_Status tuner_state_restore(Tuner* tuner,
+LV2_State_Status files_state_restore(Files* files,
                                      LV2_State_Retrieve_Function retrieve,
                                      LV2_State_Handle handle,
                                      const LV2_Feature* const* features) {
   const Paths paths = paths_of(features);
   LV2_State_Status status = LV2_STATE_SUCCESS;
-  TunerPaths found;
-  const char* given[TUNER_N_FILES] = {NULL, NULL};
-  for (int f = 0; f < TUNER_N_FILES; ++f) {
-    if (fetch(&tuner->urids, f, found.path[f], retrieve, handle, &status)) {
+  FilesPaths found;
+  const char* given[FILES_COUNT] = {NULL};
+  bool is_any = false;
+  for (int f = 0; f < FILES_COUNT; ++f) {
+    if (fetch(&files->urids, f, found.path[f], retrieve, handle, &status)) {
       make_absolute(found.path[f], &paths);
       given[f] = is_of_host(found.path[f]) ? "" : found.path[f];
+      is_any = true;
     }
   }
-  if (given[TUNER_SCALE] || given[TUNER_MAPPING]) {
-    tuner_load(tuner, given, false);
+  if (is_any) {
+    files_load(files, given, false);
   }
   return status;
 }
