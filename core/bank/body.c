@@ -115,15 +115,26 @@ double body_power(const Body* body, BodyShape shape, double hz) {
   return (body->power[band] + share * (body->power[band + 1] - body->power[band])) / shape.damping;
 }
 
+/*
+  How much higher than its Q a mass peaks that is stepped:  with q = 1 − 1/z and the poles p, p* of
+  modulus r, q² z²/((z − p) (z − p*)) is at the angle θ of p  4 sin²(θ/2)/((1 − r) 2 √r sin θ).
+*/
+static double peak_of(Pole pole, double angle) {
+  return tan(0.5 * angle) / (0.5 * angle * sqrt(1.0 - pole.g));
+}
+
 void body_bank(const Body* body, BodyShape shape, double rate_hz, Bank* bank) {
   bank_clear(bank);
   for (uint32_t k = 0; k < body->n_modes; ++k) {
     const BodyMode* const mode = &body->modes[k];
     const double f0_hz = mode->f0_hz / shape.size;
     const double tau_s = mode->q / (PI * f0_hz * shape.damping);
-    BankMode made = {.in = 1.0 / mode->mass_kg, .out = {mode->radiation[0], mode->radiation[1]}};
+    BankMode made = {.in = 1.0 / mode->mass_kg};
     if (f0_hz < BODY_HIGHEST * rate_hz &&
         pole_solve(rate_hz, (Tone){f0_hz, tau_s}, &made.pole) == STATUS_OK) {
+      const double peak = peak_of(made.pole, 2.0 * PI * f0_hz / rate_hz);
+      made.out[0] = mode->radiation[0] / peak;
+      made.out[1] = mode->radiation[1] / peak;
       bank_add(bank, made);
     }
   }

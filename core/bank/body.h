@@ -79,7 +79,10 @@ double body_power(const Body* body, BodyShape shape, double hz);
 /**
    Put the modes of a body that are below BODY_HIGHEST of the rate into a bank, at rest.
 
-   Their frequency and decay are exact at this rate; in is 1 kg/M.
+   Their frequency and decay are exact at this rate; in is 1 kg/M.  A mode that is stepped peaks
+   higher, by tan(θ/2)/(θ/2 √(1 − g)) with θ = 2π F/rate, which is taken from what is heard of it:
+   so a third of an octave is as loud at every rate, within 0.1 dB up to a tenth of it and half a dB
+   up to 0.4 of it.
 
    Real-time safe.
 */

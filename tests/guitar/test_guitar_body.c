@@ -68,9 +68,12 @@ static void convolve(const Body* body, const double* pull, float out[2][N_FRAMES
       continue;
     }
     assert_int_equal(pole_solve(RATE, (Tone){mode->f0_hz, tau_s}, &pole), STATUS_OK);
+    /* What is heard of a mass that is stepped peaks as high as the body's. */
+    const double half = acos(-1.0) * mode->f0_hz / RATE;
+    const double heard = half * sqrt(1.0 - pole.g) / tan(half);
     for (int n = 0; n < N_FRAMES; ++n) {
       const double before = u;
-      u += (n == 0) / mode->mass_kg - pole.a * x - pole.g * u;
+      u += heard * (n == 0) / mode->mass_kg - pole.a * x - pole.g * u;
       x += u;
       response[0][n] += mode->radiation[0] * (u - before);
       response[1][n] += mode->radiation[1] * (u - before);

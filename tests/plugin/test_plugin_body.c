@@ -86,10 +86,16 @@ static double complex knock_at(double rate_hz, double time_s, double angle) {
   return sum;
 }
 
-/* The sum of its modes, each a mass that is stepped, in the z-plane. */
-static double complex modes_at(const Body* body, double rate_hz, int side, double angle) {
+/* A mass that is stepped, by what it speeds up by, in the z-plane. */
+static double complex mass_at(Pole pole, double angle) {
   const double complex back = turn(-angle);
   const double complex d = 1.0 - back;
+  return 1.0 / (1.0 + pole.a * back / (d * d) + pole.g * back / d);
+}
+
+/* The sum of its modes, of which less is heard by how much higher than its Q a mass peaks that is
+ * stepped. */
+static double complex modes_at(const Body* body, double rate_hz, int side, double angle) {
   double complex sum = 0.0;
   for (uint32_t k = 0; k < body->n_modes; ++k) {
     const BodyMode* const mode = &body->modes[k];
@@ -97,8 +103,9 @@ static double complex modes_at(const Body* body, double rate_hz, int side, doubl
     if (mode->f0_hz < BODY_HIGHEST * rate_hz) {
       const double tau_s = mode->q / (acos(-1.0) * mode->f0_hz);
       assert_int_equal(pole_solve(rate_hz, (Tone){mode->f0_hz, tau_s}, &pole), STATUS_OK);
-      sum += mode->radiation[side] / mode->mass_kg /
-             (1.0 + pole.a * back / (d * d) + pole.g * back / d);
+      const double half = acos(-1.0) * mode->f0_hz / rate_hz;
+      const double peak = tan(half) / (half * sqrt(1.0 - pole.g));
+      sum += mode->radiation[side] / (mode->mass_kg * peak) * mass_at(pole, angle);
     }
   }
   return sum;
