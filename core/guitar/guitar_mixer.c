@@ -122,12 +122,12 @@ static void clear(GuitarMixer* mixer, float* pull, uint32_t n_frames) {
  * nobody. */
 static void run_pair(
     GuitarMixer* mixer, GuitarString* string, GuitarString* tail, float* pull, uint32_t n_frames) {
-  const bool is_awake = string->voice.is_awake || tail->voice.is_awake;
+  const bool is_heard = guitar_string_is_heard(string) || guitar_string_is_heard(tail);
   guitar_string_run(string, &mixer->now, n_frames, mixer->own, pull);
   guitar_string_run(tail, &mixer->now, n_frames, mixer->own, pull);
-  if (is_awake && !(finite_all(mixer->own, n_frames) && (!pull || finite_all(pull, n_frames)))) {
-    voice_mend(&string->voice);
-    voice_mend(&tail->voice);
+  if (is_heard && !(finite_all(mixer->own, n_frames) && (!pull || finite_all(pull, n_frames)))) {
+    guitar_string_mend(string);
+    guitar_string_mend(tail);
     clear(mixer, pull, n_frames);
   }
 }
@@ -142,7 +142,7 @@ static void run_string(GuitarMixer* mixer,
   float* const pull = radiator_is_on(&mixer->radiator) ? mixer->pull : NULL;
   const float* const from[GUITAR_WAYS] = {mixer->own, mixer->own, pull};
   const bool is_noisy = noise && noise->is_active;
-  const bool is_heard = string->voice.is_awake || tail->voice.is_awake || is_noisy;
+  const bool is_heard = guitar_string_is_heard(string) || guitar_string_is_heard(tail) || is_noisy;
   if (is_heard) {
     clear(mixer, pull, n_frames);
   }

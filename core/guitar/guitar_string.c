@@ -98,11 +98,6 @@ static double pull_of(const GuitarString* string) {
              : 0.0;
 }
 
-/* Something moves it to where it pulls otherwise than it did `before`; that is not heard. */
-static void hide(GuitarString* string, double before) {
-  onset_hide(&string->onset, before - pull_of(string), 0.0);
-}
-
 /* Masses between the bridge and where it will be stopped. */
 static uint32_t masses_wanted(const GuitarString* string) {
   const double frets = frets_from_nut(string->patch, guitar_string_fretted(string));
@@ -113,9 +108,7 @@ static uint32_t masses_wanted(const GuitarString* string) {
 static void shorten(GuitarString* string) {
   if (string->voice.is_awake) {
     const VoiceAim aim = aim_of(string);
-    const double before = pull_of(string);
     voice_shorten(&string->voice, &aim, masses_wanted(string));
-    hide(string, before);
   }
 }
 
@@ -123,9 +116,7 @@ static void shorten(GuitarString* string) {
 static void lengthen(GuitarString* string) {
   if (string->voice.is_awake) {
     const VoiceAim aim = aim_of(string);
-    const double before = pull_of(string);
     voice_lengthen(&string->voice, &aim, masses_wanted(string));
-    hide(string, before);
   }
 }
 
@@ -168,7 +159,6 @@ static bool restring(GuitarString* string) {
   const VoiceAim aim = aim_of(string);
   places_of(string, places);
   pickups_set(&string->pickups, places);
-  string->onset = (Onset){0};
   if (!voice_string(&string->voice, &aim, masses_wanted(string), 0)) {
     return false;
   }
@@ -185,6 +175,7 @@ void guitar_string_init(
 
 void guitar_string_reset(GuitarString* string) {
   voice_reset(&string->voice);
+  string->onset = (Onset){0};
   string->damper = GUITAR_RINGING;
   string->n_damped = 0;
   string->fret = 0.0;
@@ -248,6 +239,7 @@ void guitar_string_leave(GuitarString* string, GuitarString* tail) {
   tail->pickups = string->pickups;
   tail->weight = string->weight;
   tail->onset = string->onset;
+  string->onset = (Onset){0};
   tail->open = string->open;
   tail->detuning = string->detuning;
   tail->n_fade = string->n_fade;
@@ -267,7 +259,7 @@ void guitar_string_pluck(GuitarString* string, Pluck pluck) {
     const double before = pull_of(string);
     pluck.amplitude = -pluck.amplitude; /* It flies back from where it was pulled. */
     voice_pluck(&string->voice, pluck);
-    hide(string, before);
+    onset_hide(&string->onset, before - pull_of(string), 0.0);
   }
 }
 
@@ -330,14 +322,6 @@ static void weigh(GuitarString* string, uint32_t n_taps, uint32_t n_frames, floa
   }
 }
 
-/* What it pulls at the body by, as if the fingers took their time. */
-static void add_pull(GuitarString* string, float* samples, uint32_t n_frames, float* pull) {
-  onset_run(&string->onset, string->onset_pole, n_frames, samples);
-  for (uint32_t n = 0; n < n_frames; ++n) {
-    pull[n] += samples[n];
-  }
-}
-
 /* Run it as long as the pickups do not change but by their own fade. */
 static void run_stretch(GuitarString* string,
                         const GuitarGains* gains,
@@ -355,8 +339,15 @@ static void run_stretch(GuitarString* string,
   pickups_cross(&string->pickups, &reading, n_frames, taps);
   weigh(string, reading.n_heard, n_frames, taps);
   add(taps, gains, from, n_frames, out);
+  for (uint32_t n = 0; pull && n < n_frames; ++n) {
+    pull[n] += taps[reading.n_taps - 1][n];
+  }
+}
+
+/* Fingers take their time to pull, and a string that has died in it leaves that behind. */
+static void run_onset(GuitarString* string, uint32_t n_frames, float* pull) {
   if (pull) {
-    add_pull(string, taps[reading.n_taps - 1], n_frames, pull);
+    onset_run(&string->onset, string->onset_pole, n_frames, pull);
   } else {
     string->onset = (Onset){0};
   }
@@ -388,6 +379,15 @@ static uint32_t stretch(const GuitarString* string, uint32_t n_frames) {
   return n;
 }
 
+void guitar_string_mend(GuitarString* string) {
+  voice_mend(&string->voice);
+  string->onset = (Onset){0};
+}
+
+bool guitar_string_is_heard(const GuitarString* string) {
+  return string->voice.is_awake || !onset_is_over(&string->onset);
+}
+
 void guitar_string_run(
     GuitarString* string, const GuitarGains* gains, uint32_t n_frames, float* out, float* pull) {
   for (uint32_t done = 0; done < n_frames;) {
@@ -398,11 +398,13 @@ void guitar_string_run(
       pickups_move(&string->pickups, places, string->n_fade);
     }
     const uint32_t n = stretch(string, n_frames - done);
+    float* const pull_on = pull ? pull + done : NULL;
     if (string->voice.is_awake) {
-      run_stretch(string, gains, done, n, out + done, pull ? pull + done : NULL);
+      run_stretch(string, gains, done, n, out + done, pull_on);
     } else {
       run_asleep(string, n);
     }
+    run_onset(string, n, pull_on);
     pass(string, n);
     done += n;
   }

@@ -108,6 +108,12 @@ void guitar_string_touch(GuitarString* string, double place, uint32_t n_frames);
 /** Lift what touches it, in a gesture. */
 void guitar_string_untouch(GuitarString* string);
 
+/** Silence it if it holds what is not a number, see voice_mend(). */
+void guitar_string_mend(GuitarString* string);
+
+/** Whether anything is read of it, by pickups or the body. */
+bool guitar_string_is_heard(const GuitarString* string);
+
 /**
    Run it for `n_frames`, at most GUITAR_MIX_FRAMES.
 

@@ -29,8 +29,10 @@ void radiator_init(Radiator* radiator) {
 
 void radiator_rest(Radiator* radiator) {
   for (int b = 0; b < 2; ++b) {
-    bank_rest(&radiator->banks[b]);
-    radiator->is_awake[b] = false;
+    if (radiator->is_awake[b]) {
+      bank_rest(&radiator->banks[b]);
+      radiator->is_awake[b] = false;
+    }
   }
   memset(radiator->knocks, 0, sizeof(radiator->knocks));
   radiator->was_pulled = false;
@@ -192,6 +194,7 @@ run_some(Radiator* radiator, const float* pull, uint32_t n_frames, float* left, 
 void radiator_run(
     Radiator* radiator, const float* pull, uint32_t n_frames, float* left, float* right) {
   if (!radiator_is_on(radiator) && radiator->gain.n_left == 0 && radiator->strings.value == 1.0) {
+    radiator_rest(radiator); /* So that the next begins as the first did, whenever it comes. */
     return;
   }
   for (uint32_t done = 0; done < n_frames;) {
