@@ -114,6 +114,7 @@ void harp_reset(Harp* harp) {
   harp->is_followed = false;
   harp_channels_reset(harp->channels);
   harp_bridge_init(&harp->bridge, harp->rate_hz);
+  harp_bridge_move(harp);
   harp->reading.n_taps = 0;
   harp->n_notes = 0;
   memset(harp->noises, 0, sizeof(harp->noises));
