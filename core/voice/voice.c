@@ -251,9 +251,9 @@ static bool act_played(Voice* voice) {
  * for slow changes. */
 static uint32_t tighten(Voice* voice, const VoiceAim* aim, uint32_t n_glide) {
   Tension* const tension = &voice->tension;
+  voice->aim = *aim;
+  tension->cents = aim->tension;
   if (aim->tension > 0.0 || tension->is_moving) {
-    voice->aim = *aim;
-    tension->cents = aim->tension;
     tension_see(tension, &voice->chain, voice->hammer.is_active);
     n_glide = tension->is_moving ? least(n_glide, voice->n_gesture) : n_glide;
     tension->n_left = n_glide > 0 ? n_glide : 1;

@@ -136,6 +136,39 @@ static void string_at_rest_takes_from_one_that_moves(void** state) {
   assert_true(most > 0.5);
 }
 
+/* A string at the pitch of a mode that has not been kept from it: all that it has goes to the body
+ * and comes back, and there is never more. */
+static void wolf_beats_and_gains_nothing(void** state) {
+  (void)state;
+  const TuningTarget target = {48e3, {196.0, (double)INFINITY}, 0.0, 0.0, PARTIALS_TRUEST};
+  const Body body = {.n_modes = 1, .modes = {{196.0, 1e6, 0.3, {0.0}}}};
+  double least = 1.0;
+  double back = 0.0;
+  double most = 0.0;
+  strung = (Strung){.n_strings = 1, .n_masses = {20}};
+  bridge_init_on(&strung.bridge, &body, (BodyShape){1.0, 1.0}, 48e3);
+  assert_int_equal(tuning_fit(&target, 20, &strung.coefs[0]), STATUS_OK);
+  strung.ties[0] =
+      bridge_tie(&strung.bridge, strung.coefs[0], 20, (BridgeHold){bridge_mass(196.0), 1.0});
+  strung.motions[0].n = 20;
+  for (uint32_t i = 0; i < 20; ++i) {
+    strung.motions[0].x[i] = sin((i + 1.0) * acos(-1.0) / 21.0);
+  }
+  const double start = bridges_energy(&strung);
+  for (int n = 0; n < STEPS; ++n) {
+    bridges_step(&strung);
+    const double whole = bridges_energy(&strung);
+    const double share =
+        strung.ties[0].weight * motion_energy(&strung.motions[0], strung.coefs[0]) / whole;
+    least = fmin(least, share);
+    back = least < 0.1 ? fmax(back, share) : back;
+    most = fmax(most, whole / start - 1.0);
+  }
+  print_message("  its share falls to %.3f and comes back to %.3f\n", least, back);
+  assert_true(least < 0.1 && back > 0.9);
+  assert_within("growth", most, 1e-12);
+}
+
 /* In between two wholes that are stable, everything mixed in a straight line. */
 static double mix(double a, double b, double share) {
   return a + share * (b - a);
@@ -274,6 +307,7 @@ int main(void) {
       cmocka_unit_test(energy_of_the_whole_never_grows),
       cmocka_unit_test(energy_is_kept_where_nothing_damps),
       cmocka_unit_test(string_at_rest_takes_from_one_that_moves),
+      cmocka_unit_test(wolf_beats_and_gains_nothing),
       cmocka_unit_test(gliding_strings_stay_stable),
       cmocka_unit_test(no_harp_comes_near_the_limit),
       cmocka_unit_test(usual_strings_have_their_whole_lever),
