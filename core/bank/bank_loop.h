@@ -24,9 +24,13 @@
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* Loops over what is to be in registers. */
-#ifdef __clang__
+/* Loops over what is to be in registers; where memory is watched clang takes minutes to do that. */
+#if defined(__clang__) && defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer)
+#define UNROLLED
+#else
 #define UNROLLED _Pragma("clang loop unroll(full)")
+#endif
 #else
 #define UNROLLED _Pragma("GCC unroll 4")
 #endif
