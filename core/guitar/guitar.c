@@ -351,6 +351,19 @@ void guitar_choke(Guitar* guitar) {
   for (uint32_t s = 0; s < GUITAR_STRINGS; ++s) {
     guitar_mixer_choke(&guitar->mixer, s);
   }
+  radiator_choke(&guitar->mixer.radiator);
+}
+
+/* The body of strings that are choked, all of them, is so too. */
+static void choke_body(Guitar* guitar) {
+  bool is_heard = false;
+  for (uint32_t w = 0; w < GUITAR_VOICES; ++w) {
+    const Voice* const voice = &guitar->strings[w].voice;
+    is_heard = is_heard || (voice->is_awake && !voice->is_choked);
+  }
+  if (!is_heard) {
+    radiator_choke(&guitar->mixer.radiator);
+  }
 }
 
 void guitar_choke_string(Guitar* guitar, uint32_t string) {
@@ -362,6 +375,7 @@ void guitar_choke_string(Guitar* guitar, uint32_t string) {
     guitar_string_damp(s, GUITAR_CHOKED, 0);
     guitar_string_untouch(s);
   }
+  choke_body(guitar);
 }
 
 void guitar_set_gain(Guitar* guitar, uint32_t string, double gain) {

@@ -196,10 +196,8 @@ static void stop(Harp* harp, HarpString* string) {
 static void knock(Harp* harp, uint32_t channel, Pluck pluck) {
   const double hardness = clamp(pluck_played(pluck.hardness, pluck.softness), 0.0, 1.0);
   const double gain = harp->level.value * harp->channels[channel].gain.value;
-  if (harp->patch.exciter != EXCITER_BOW) {
-    radiator_play(&harp->radiator, harp->rate_hz, hardness,
-                  harp->patch.body.knock * gain * pluck.amplitude);
-  }
+  const double share = harp->patch.exciter == EXCITER_BOW ? 0.0 : harp->patch.body.knock;
+  radiator_play(&harp->radiator, harp->rate_hz, hardness, share * gain * pluck.amplitude);
 }
 
 static void make_noise(Harp* harp, uint32_t channel, Pluck pluck) {
@@ -384,6 +382,18 @@ void harp_all_notes_off(Harp* harp, uint32_t channel) {
 }
 
 /* What others hold goes on as theirs. */
+/* The body of strings that are choked, all of them, is so too. */
+static void choke_body(Harp* harp) {
+  bool is_heard = false;
+  for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
+    const Voice* const voice = &harp->strings[i].voice;
+    is_heard = is_heard || (voice->is_awake && !voice->is_choked);
+  }
+  if (!is_heard) {
+    radiator_choke(&harp->radiator);
+  }
+}
+
 void harp_all_sound_off(Harp* harp, uint32_t channel) {
   harp->channels[channel].lift = 0.0;
   harp->channels[channel].is_sostenuto = false;
@@ -399,6 +409,7 @@ void harp_all_sound_off(Harp* harp, uint32_t channel) {
       harp_group_choke(string, harp->n_gesture);
     }
   }
+  choke_body(harp);
 }
 
 void harp_silence(Harp* harp) {

@@ -20,6 +20,9 @@ static const double HARD_KNOCK_S = 0.0015;
 /* The shortest fade to another body [s]: low ones take their time to sound. */
 static const double FADE_S = 0.03;
 
+/* How many times as soon it is silent with a hand on it. */
+static const double CHOKED = 60.0;
+
 void radiator_init(Radiator* radiator) {
   memset(radiator, 0, sizeof(*radiator));
   radiator->n_until_grid = GRID;
@@ -35,6 +38,7 @@ void radiator_rest(Radiator* radiator) {
     }
   }
   memset(radiator->knocks, 0, sizeof(radiator->knocks));
+  radiator->is_choked = false;
   radiator->was_pulled = false;
   radiator->n_until_grid = GRID;
 }
@@ -78,16 +82,22 @@ RadiatorBody radiator_wanted(const Radiator* radiator, const BodyPatch* patch) {
 }
 
 void radiator_set(Radiator* radiator, const BodyPatch* patch, double rate_hz, uint32_t n_frames) {
-  const RadiatorBody wanted = radiator_wanted(radiator, patch);
+  RadiatorBody wanted = radiator_wanted(radiator, patch);
   const double mix = wanted.body ? patch->mix : 0.0;
+  wanted.shape.damping *= radiator->is_choked ? CHOKED : 1.0;
   if (radiator->fade.n_left == 0 && !radiator_body_is_same(&wanted, &radiator->now)) {
+    const bool is_at_rest = radiator->now.body && !radiator->is_awake[0] && !radiator->is_awake[1];
     const uint32_t n_fade = (uint32_t)fmax(n_frames, FADE_S * rate_hz);
-    take_body(radiator, &wanted, rate_hz, n_frames > 0 ? n_fade : 0);
+    take_body(radiator, &wanted, rate_hz, n_frames > 0 && !is_at_rest ? n_fade : 0);
   }
   if (radiator->gain.goal != sqrt(mix)) {
     line_to(&radiator->strings, sqrt(1.0 - mix), n_frames);
     line_to(&radiator->gain, sqrt(mix), n_frames);
   }
+}
+
+void radiator_choke(Radiator* radiator) {
+  radiator->is_choked = true;
 }
 
 uint32_t radiator_stretch(const Radiator* radiator) {
@@ -109,6 +119,7 @@ void radiator_knock(Radiator* radiator, double force, uint32_t n_frames) {
 }
 
 void radiator_play(Radiator* radiator, double rate_hz, double hardness, double amplitude) {
+  radiator->is_choked = false;
   const double time_s = SOFT_KNOCK_S * pow(HARD_KNOCK_S / SOFT_KNOCK_S, hardness);
   if (amplitude > 0.0) {
     radiator_knock(radiator, KNOCK * amplitude, (uint32_t)fmax(time_s * rate_hz, 1.0));

@@ -46,6 +46,7 @@ typedef struct {
   bool was_pulled;  /**< By anything, since the last place of the grid */
   uint32_t n_until_grid;
   RadiatorBody now; /**< What is heard, or will be once the fade is over */
+  bool is_choked;   /**< See radiator_choke() */
   Body file;        /**< For BODIES_FILE; no modes: none */
   uint32_t version; /**< How many of those there were */
   Line fade;        /**< From what is left behind to what is heard: 0 to 1 */
@@ -72,6 +73,10 @@ RadiatorBody radiator_wanted(const Radiator* radiator, const BodyPatch* patch);
 /** Go to what is wanted in `n_frames`, 0: at once; while it fades to another body that one comes
  * first, to be asked for again. */
 void radiator_set(Radiator* radiator, const BodyPatch* patch, double rate_hz, uint32_t n_frames);
+
+/** Let a hand lie on the wood, so that it is silent as soon as what it hears, until strings are
+ * played again; after the next radiator_set(). */
+void radiator_choke(Radiator* radiator);
 
 /** Frames until a fade ends; UINT32_MAX if there is none. */
 uint32_t radiator_stretch(const Radiator* radiator);
