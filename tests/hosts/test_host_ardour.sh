@@ -18,8 +18,8 @@ needs python3 python3
 session=$dir/session
 seconds=8
 
-# What is set by hand, beside the presets: few masses, so that no partial is where a step would be heard.
-by_hand='Masses=12 Release=0.05'
+# What is set by hand, beside the presets: few masses, so that no partial is where a step would be heard, and no body that rings on.
+by_hand='Masses=12 Release=0.05 Body=0'
 
 # A lane stands still, moves from 1.1 s to 1.6 s, and stands still again, while the first note sounds.
 lane() {
@@ -144,7 +144,7 @@ rendered() {
     *) preset='Clean Bridge' ;;
     esac
     small=$(echo "$1" | tr SG sg)
-    render "$small.mid" "$2" --plugin "urn:hooke:$small" --preset "$preset" --set masses=12 --set release=0.05 \
+    render "$small.mid" "$2" --plugin "urn:hooke:$small" --preset "$preset" --set masses=12 --set release=0.05 --set body=0 \
         --set damping="$3" --set pickup="$4" --tail 2 --quiet
 }
 
