@@ -138,7 +138,7 @@ static void mix_goes_from_strings_to_body(void** state) {
   assert_memory_equal(right, others[1], sizeof(right));
   const HarpPatch half = patch_with(0, BODIES_GUITAR, 0.5);
   harp_free(play(&half, 45, left, right));
-  assert_true(memcmp(left, others[0], sizeof(left)) != 0);
+  assert_true(fabs(rms_of(left) - rms_of(others[0])) > 1e-4);
 }
 
 static void gain_of_a_channel_is_the_body_s_as_well(void** state) {
@@ -195,7 +195,7 @@ static void run_in_pieces(uint32_t piece, float* l, float* r) {
     if (until == 4800) {
       patch.body.choice = (BodiesChoice)(done / 4800 % BODIES_FILE);
       patch.resonance = done / 4800 % 3 == 2 ? 0.5 : 0.0;
-      patch.pickup = 0.1 + 0.05 * (done / 4800);
+      patch.pickup = 0.1 + 0.05 * (double)(done / 4800);
       harp_set_patch(harp, &patch, 500);
       harp_note_on(harp, 0, 40 + done / 4800, 90);
     }

@@ -1,6 +1,7 @@
 /* Bodies through a host: what a knock on each comes out as is what its modes make of it, and the
  * strings keep their pitch and decay. */
 #include "core/bank/bodies.h"
+#include "core/base/complex_of.h"
 
 #include "tests/support/measure.h"
 #include "tests/support/oracle.h"
@@ -62,7 +63,7 @@ static Sound knock_of(double rate_hz, BodiesChoice body, double hardness, size_t
 }
 
 static double complex turn(double angle) {
-  return cos(angle) + I * sin(angle);
+  return complex_of(cos(angle), sin(angle));
 }
 
 static double complex spectrum_at(const float* samples, size_t n, double angle) {
@@ -153,7 +154,7 @@ static void a_knock_is_heard_through_the_modes_of_the_body(void** state) {
   (void)state;
   for (BodiesChoice choice = BODIES_NONE + 1; choice < BODIES_FILE; ++choice) {
     const Body* const body = bodies_shipped(choice);
-    for (int r = is_long ? 0 : choice % 3; r < (is_long ? 3 : choice % 3 + 1); ++r) {
+    for (int r = is_long ? 0 : (int)choice % 3; r < (is_long ? 3 : (int)choice % 3 + 1); ++r) {
       bool is_measured[BODY_MAX_MODES] = {false};
       const size_t n_frames = (size_t)(2.0 * rates[r]);
       Sound knocks[] = {knock_of(rates[r], choice, HARDNESS[0], n_frames),

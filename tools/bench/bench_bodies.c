@@ -44,11 +44,13 @@ static double band_power(const Body* body, double hz) {
 static Errors errors_of(const Body* kept, const Body* whole) {
   Errors errors = {0.0, 0.0};
   int n = 0;
-  for (double hz = LOW_HZ; hz < HIGH_HZ; hz *= cbrt(2.0)) {
+  double hz = LOW_HZ;
+  while (hz < HIGH_HZ) {
     const double db = 10.0 * log10(band_power(kept, hz) / band_power(whole, hz));
     errors.rms_db += db * db;
     errors.worst_db = fmax(errors.worst_db, fabs(db));
     ++n;
+    hz *= cbrt(2.0);
   }
   errors.rms_db = sqrt(errors.rms_db / n);
   return errors;
