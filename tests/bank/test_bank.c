@@ -125,6 +125,8 @@ static bool is_of_plain_bits(const Bank* bank, const BankKernel* kernel, uint32_
   other.kernel = kernel;
   run_plainly(&plain, *bank, n_frames);
   run_bank(&fast, other, n_frames, n_frames);
+  /* The bits are meant.
+   * NOLINTNEXTLINE(bugprone-suspicious-memory-comparison,cert-exp42-c,cert-flp37-c) */
   return memcmp(&plain, &fast, sizeof(plain)) == 0;
 }
 

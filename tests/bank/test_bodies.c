@@ -18,7 +18,7 @@
 #include <cmocka.h>
 
 static const char* const NAMES[BODIES_COUNT] = {
-#define NAME(name, file, text) [BODIES_##name] = file,
+#define NAME(name, file, text) [BODIES_##name] = (file),
     BODIES_LIST(NAME)
 #undef NAME
 };
