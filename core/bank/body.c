@@ -60,8 +60,7 @@ void body_narrow(BodyMode* mode) {
   mode->radiation[1] = both - apart;
 }
 
-/* What a mode gives to a third of an octave: the square of its peak, and its width. */
-static double strength(const BodyMode* mode) {
+double body_strength(const BodyMode* mode) {
   const double sides =
       mode->radiation[0] * mode->radiation[0] + mode->radiation[1] * mode->radiation[1];
   return sides * mode->q / (mode->mass_kg * mode->mass_kg);
@@ -71,7 +70,7 @@ static double strength(const BodyMode* mode) {
 static void drop_one(Body* body) {
   uint32_t least = 0;
   for (uint32_t k = 1; k < body->n_modes; ++k) {
-    least = strength(&body->modes[k]) < strength(&body->modes[least]) ? k : least;
+    least = body_strength(&body->modes[k]) < body_strength(&body->modes[least]) ? k : least;
   }
   --body->n_modes;
   for (uint32_t k = least; k < body->n_modes; ++k) {

@@ -58,8 +58,12 @@ typedef struct {
 /** Bring what is heard of a mode on both sides within BODY_APART; what it has on both stays. */
 void body_narrow(BodyMode* mode);
 
-/** Keep the `n_modes` that are heard most, by what each gives to a third of an octave in power, in
- * their order; what is heard of them is as loud as it was. */
+/** What a mode gives to a third of an octave in power, beside others: the square of its peak, times
+ * how wide that is beside its frequency. */
+double body_strength(const BodyMode* mode);
+
+/** Keep the `n_modes` that are the strongest, in their order; what is heard of them is as loud as
+ * it was. */
 void body_keep(Body* body, uint32_t n_modes);
 
 /** Make the gain of all modes together BODY_POWER by a factor of their radiation, and fill in

@@ -381,19 +381,19 @@ void harp_all_notes_off(Harp* harp, uint32_t channel) {
   }
 }
 
-/* What others hold goes on as theirs. */
 /* The body of strings that are choked, all of them, is so too. */
 static void choke_body(Harp* harp) {
   bool is_heard = false;
   for (uint32_t i = 0; i < HARP_STRINGS; ++i) {
-    const Voice* const voice = &harp->strings[i].voice;
-    is_heard = is_heard || (voice->is_awake && !voice->is_choked);
+    const HarpString* const string = &harp->strings[i];
+    is_heard = is_heard || (harp_group_is_awake(string) && !string->voice.is_choked);
   }
   if (!is_heard) {
     radiator_choke(&harp->radiator);
   }
 }
 
+/* What others hold goes on as theirs. */
 void harp_all_sound_off(Harp* harp, uint32_t channel) {
   harp->channels[channel].lift = 0.0;
   harp->channels[channel].is_sostenuto = false;

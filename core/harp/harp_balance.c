@@ -240,7 +240,7 @@ set_taps(Heard* heard, Turns* turns, const HarpPatch* patch, const HarpBalance* 
       (double)pickup_tap_of_type(PICKUP_FORCE, string->n_masses, 0.0, 0.0).weight[0];
   heard->spread = patch->spread;
   heard->dry = sqrt(1.0 - mix);
-  heard->body = patch->radiates;
+  heard->body = mix > 0.0 ? patch->radiates : NULL;
   heard->shape = patch->body.shape;
   heard->wet = sqrt(mix) * force;
   turns->angle[PULLED] = turns->angle[STRING];

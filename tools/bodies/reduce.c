@@ -93,13 +93,6 @@ static BodyMode mode_of(const Scene* scene, const Part* part) {
   return mode;
 }
 
-/* How much is heard of a mode: the square of its peak, and how wide it is beside its frequency. */
-static double strength(const BodyMode* mode) {
-  const double left = mode->radiation[0] / mode->mass_kg;
-  const double right = mode->radiation[1] / mode->mass_kg;
-  return (left * left + right * right) * mode->q;
-}
-
 static bool is_heard(const Part* part) {
   return part->omega > 2.0 * PI * REDUCE_LEAST_HZ && part->omega < 2.0 * PI * REDUCE_MOST_HZ &&
          part->bridge != 0.0 && (part->heard[0] != 0.0 || part->heard[1] != 0.0);
@@ -136,8 +129,8 @@ static int compare_frequencies(const void* left, const void* right) {
 }
 
 static int compare_strengths(const void* left, const void* right) {
-  const double p = strength(left);
-  const double q = strength(right);
+  const double p = body_strength(left);
+  const double q = body_strength(right);
   return p > q ? -1 : p < q;
 }
 
@@ -146,10 +139,10 @@ static uint32_t drop_unheard(BodyMode* modes, uint32_t n_modes) {
   double most = 0.0;
   uint32_t n = 0;
   for (uint32_t k = 0; k < n_modes; ++k) {
-    most = fmax(most, strength(&modes[k]));
+    most = fmax(most, body_strength(&modes[k]));
   }
   for (uint32_t k = 0; k < n_modes; ++k) {
-    if (strength(&modes[k]) > UNHEARD * most) {
+    if (body_strength(&modes[k]) > UNHEARD * most) {
       modes[n++] = modes[k];
     }
   }
@@ -194,7 +187,7 @@ Status reduce_scene(const Scene* scene, Body* body, Reduction* reduction) {
   double lost = 0.0;
   qsort(modes, n_modes, sizeof(BodyMode), compare_strengths);
   for (uint32_t k = n_modes; k > 0; --k) {
-    all += strength(&modes[k - 1]);
+    all += body_strength(&modes[k - 1]);
     lost = k > reduced.n_modes ? all : lost;
   }
   found.lost = lost / all;
