@@ -91,10 +91,14 @@ INLINE void step(Modes* m, double force) {
 INLINE void hear(const Modes* modes, int n_groups, uint32_t part, bool is_first, Sums* sums) {
   double* const left = sums->of[0] + part * BANK_LOOP_LANES;
   double* const right = sums->of[1] + part * BANK_LOOP_LANES;
-  Vector l = is_first ? (Vector){0} : load(left);
-  Vector r = is_first ? (Vector){0} : load(right);
+  Vector l = modes[0].l * modes[0].u;
+  Vector r = modes[0].r * modes[0].u;
+  if (!is_first) {
+    l += load(left);
+    r += load(right);
+  }
   UNROLLED
-  for (int i = 0; i < n_groups; ++i) {
+  for (int i = 1; i < n_groups; ++i) {
     l += modes[i].l * modes[i].u;
     r += modes[i].r * modes[i].u;
   }

@@ -67,6 +67,17 @@ awk -F, 'NR > 1 && !(NF == 5 && $3 > 0 && $4 >= 0 && $5 >= $4 && ($1 != last || 
 same "$(awk -F, 'NR > 2 && $1 != last && error != 0 { print last } { last = $1; error = $4 }' log)" "" "errors of whole bodies"
 answer 0 bench bodies --seconds 0
 
+# A bank of five sizes by every kernel, the best first, and the plain one last.
+answer 0 bench modes --csv --seconds 0
+heads "kernel,modes,heard_ns_per_mode_step,pushed_ns_per_mode_step,ns_per_mass_step,heard_ratio,pushed_ratio"
+same "$(tail -n +2 log | cut -d , -f 2 | sort -nu | tr '\n' ' ')" "8 32 64 128 256 " "modes"
+same "$(tail -n 1 log | cut -d , -f 1)" plain "the last kernel"
+numbers 2 $((5 * $(tail -n +2 log | cut -d , -f 1 | uniq | wc -l)))
+awk -F, 'NR > 1 { h = $3 / $5 / $6 - 1; p = $4 / $5 / $7 - 1; if (!($5 > 0) || h * h > 1e-4 || p * p > 1e-4) exit 1 }' log ||
+    fail "ratios are not those of times: $(cat log)"
+answer 0 bench modes --seconds 0
+same "$(grep -c '^plain  ' log)" 5 "lines of the plain kernel"
+
 answer 0 bench --host urn:hooke:strings --csv
 heads "notes,ns_per_frame,share_of_core,start_ms"
 numbers 1 5

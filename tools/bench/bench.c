@@ -6,6 +6,7 @@
 #include "tools/bench/bench_count.h"
 #include "tools/bench/bench_host.h"
 #include "tools/bench/bench_load.h"
+#include "tools/bench/bench_modes.h"
 #include "tools/bench/bench_scene.h"
 #include "tools/bench/bench_start.h"
 #include "tools/bench/bench_survey.h"
@@ -37,6 +38,8 @@ const char bench_help[] =
     "           string, made in every way: as a chain in each kind of numbers with each kind of\n"
     "           partials, under other schemes, as a bank of its modes\n"
     "  bodies   error against run time of every body, of as many of its modes as are kept\n"
+    "  modes    a bank of modes by every kernel: driven and heard in stereo, and pushed frame by\n"
+    "           frame, beside the masses of the barest string\n"
     "\n"
     "  --scene WORDS    scenes: only those with all WORDS, with - between: bending, "
     "ground-still-2\n"
@@ -78,6 +81,7 @@ typedef struct {
 static const Part parts[] = {
     {"scenes", 9.0, bench_table}, {"loads", 4.0, bench_load},    {"start", 0.0, bench_start},
     {"blocks", 0.0, bench_block}, {"survey", 4.0, bench_survey}, {"bodies", 1.0, bench_bodies},
+    {"modes", 1.0, bench_modes},
 };
 enum { N_PARTS = sizeof(parts) / sizeof(parts[0]) };
 
