@@ -21,19 +21,18 @@ static const double MASS_HALVED_AGAIN_HZ = 1500.0;
 /* The share of a string's dampers to the ground that stays, whatever the bridge takes. */
 static const double LEAST_GROUND = 0.5;
 
-/* The largest of |ε'/D_1'|, the share of its motion that is the body's, where the pole is wanted
- * and where it comes to.  Where a string is at one mode, twice their coupling is then four fifths
- * of what the mode dies faster by: they stay two poles at one pitch, and the string's has a fifth
- * of that. */
+/* The most that the modes of the body may move, over what the string does, in squares: where the
+ * pole is wanted, and where it comes to.  Where a string is at one mode, twice their coupling is
+ * then four fifths of what the mode dies faster by: they stay two poles at one pitch, and the
+ * string's has a fifth of that. */
 static const double MOST_SHARED = 0.16;
 static const double MOST_SHARED_AT_LAST = 0.25;
 
 /* The largest of |ε|/a_1, some 80 cents. */
 static const double MOST_MOVED = 0.1;
 
-/* Each round makes what is left of the error smaller by the share that the bridge has in the sound,
- * 1 in 1000 of the pitch where no mode is near; so one that has moved it but so far has been the
- * last. */
+/* Each round makes what is left of the error a small part of what it was, as the slopes are nearly
+ * right; so one that has moved it but so far has been the last. */
 static const double NEAR = 1e-7;
 static const double NEAR_DAMPING = 1e-4;
 enum { MOST_ROUNDS = 12 };
@@ -62,15 +61,20 @@ static double complex d_slope(const Place* place, double g) {
   return 1.0 - (1.0 - g) * place->back * place->back;
 }
 
-/* A function of z at a place. */
+/* S, dS/dz, and Σ 1/(M_i |D_i|²): how the modes move, in squares. */
 typedef struct {
   double complex value;
-  double complex slope; /* Its derivative */
-} Local;
+  double complex slope;
+  double square;
+} Give;
+
+static double square_of(double complex d) {
+  return creal(d) * creal(d) + cimag(d) * cimag(d);
+}
 
 /* 1/d without the care for infinities that makes C's division slow. */
 static double complex inverse(double complex d) {
-  return conj(d) / (creal(d) * creal(d) + cimag(d) * cimag(d));
+  return conj(d) / square_of(d);
 }
 
 /* The modes of a string one by one: sin² of half an angle that turns by π/(N + 1) for each. */
@@ -142,39 +146,60 @@ static BridgeTie tie_of(
   };
 }
 
-/* S */
-static Local give_at(const Bridge* bridge, const Place* place) {
+static Give give_at(const Bridge* bridge, const Place* place) {
   const Bank* const bank = &bridge->bank;
-  Local sum = {0};
+  Give sum = {0};
   for (uint32_t i = 0; i < bank->n_added; ++i) {
     const double complex one = inverse(d_of(place, (Pole){bank->a[i], bank->g[i]}));
     sum.value += bank->in[i] * one;
     sum.slope -= bank->in[i] * d_slope(place, bank->g[i]) * (one * one);
+    sum.square += bank->in[i] * square_of(one);
   }
   return sum;
 }
 
-/* ε of a string's fundamental, in whose slope only the body counts: all else changes slowly. */
-static Local pull_of_bridge(const Bridge* bridge,
-                            StringCoefs coefs,
-                            uint32_t n_masses,
-                            BridgeHold hold,
-                            const Place* place,
-                            const Local* give) {
+/* ε of a string's fundamental. */
+typedef struct {
+  double complex value;
+  double complex slope; /* dε/dz, in which only the body counts: all else changes slowly */
+  double complex by_a;  /* dε/da, where what holds the string's end goes with a */
+  double shared;        /* How the body moves over the string, in squares */
+  double lever;         /* That is left by BRIDGE_MOST_LOAD */
+} Pull;
+
+static Pull pull_of_bridge(const Bridge* bridge,
+                           StringCoefs coefs,
+                           uint32_t n_masses,
+                           BridgeHold hold,
+                           const Place* place,
+                           const Give* give) {
+  const Mode first = first_mode(coefs, n_masses);
   const Sums sums = sum_modes(coefs, n_masses, place);
   const BridgeTie tie = tie_of(bridge, &sums, coefs, n_masses, hold);
   const double strength = tie.weight * tie.pull * tie.pull;
-  const double complex loose =
-      inverse(1.0 + give->value * (tie.spring - strength * sums.rest)); /* Over S */
-  return (Local){strength * sums.first * give->value * loose,
-                 strength * sums.first * give->slope * (loose * loose)};
+  const double complex held = tie.spring - strength * sums.rest;
+  const double complex loose = inverse(1.0 + give->value * held);
+  const double complex value = strength * sums.first * give->value * loose;
+  return (Pull){
+      .value = value,
+      .slope = strength * sums.first * give->slope * (loose * loose),
+      .by_a = value * (1.0 + loose) / first.pole.a,
+      .shared = strength * sums.first * give->square * square_of(loose),
+      .lever = tie.pull / coefs.k1,
+  };
 }
 
-/* What a string may keep of its pull and stay itself, and in tune, whatever mode it is at. */
-static double kept_of(const Local* pull, const Place* place, Pole own, double most_shared) {
-  const double shared = cabs(pull->slope) / (most_shared * cabs(d_slope(place, own.g)));
-  const double moved = cabs(pull->value) / (MOST_MOVED * own.a);
-  return 1.0 / fmax(1.0, fmax(shared, moved));
+/* Let the lever give way to where a string stays itself, and in tune, whatever mode it is at. */
+static bool give_way(Pull* pull, double a, double most_shared, BridgeHold* hold) {
+  const double over = fmax(pull->shared / most_shared, cabs(pull->value) / (MOST_MOVED * a));
+  if (!(over > 1.0)) {
+    return false;
+  }
+  hold->lever = pull->lever / sqrt(over);
+  pull->value /= over;
+  pull->slope /= over;
+  pull->by_a /= over;
+  return true;
 }
 
 /* The sound that is wanted of the two, and what was asked of the string alone for it. */
@@ -186,23 +211,22 @@ typedef struct {
 } Wish;
 
 /*
-  The string's own fundamental, of which ε makes what is wanted: where that leaves it too few
-  dampers, g is the least, and the radius is what it comes to, by a step of Newton's.
+  A step of Newton's from one fundamental of the string's own to the next, of which ε makes what is
+  wanted.  Where that leaves it too few dampers, g is the least, and the radius is what it comes to.
 */
-static Pole own_pole(Wish* wish, const Place* place, const Local* pull) {
-  const double complex left = pull->value - place->base;
-  Pole own = {.g = cimag(left) / cimag(place->slope)};
-  if (wish->radius == wish->wanted && own.g >= wish->least) {
-    own.a = creal(left) - own.g * creal(place->slope);
-    return own;
+static Pole next_pole(Wish* wish, const Place* place, const Pull* pull, Pole own) {
+  const double complex share = inverse(1.0 - pull->by_a);
+  const double complex left = share * (pull->value - place->base - own.a);
+  const double complex turned = share * place->slope;
+  const double g = cimag(left) / cimag(turned);
+  if (wish->radius == wish->wanted && g >= wish->least) {
+    return (Pole){.a = own.a + creal(left) - g * creal(turned), .g = g};
   }
-  own.g = wish->least;
-  const double complex missing = left - own.g * place->slope;
-  const double complex rate = (pull->slope - d_slope(place, own.g)) * place->z;
-  const double change = -cimag(missing) / cimag(rate);
+  const double complex missing = left - wish->least * turned;
+  const double complex rate = share * (pull->slope - d_slope(place, wish->least)) * place->z;
+  const double change = fmax(-cimag(missing) / cimag(rate), -0.5);
   wish->radius = fmin(wish->radius * (1.0 + change), wish->wanted);
-  own.a = creal(missing + change * rate);
-  return own;
+  return (Pole){.a = own.a + creal(missing + change * rate), .g = wish->least};
 }
 
 /* Its modes are there. */
@@ -265,25 +289,34 @@ static Pole guess(const TuningTarget* target, double g, const BridgeShift* shift
   return (Pole){.a = 2.0 - own_g - 2.0 * sqrt(1.0 - own_g) * cos(turn), .g = own_g};
 }
 
+static Wish wish_of(const TuningTarget* target, double g) {
+  const double radius = sqrt(1.0 - g);
+  return (Wish){
+      .angle = 2.0 * PI * target->tone.f0_hz / target->rate_hz,
+      .wanted = radius,
+      .radius = radius,
+      .least = g * (target->loss + LEAST_GROUND * (1.0 - target->loss)),
+  };
+}
+
+/* Whether a round has changed next to nothing. */
+static bool is_near(Pole own, Pole before, double radius, double radius_before, double g) {
+  return fabs(own.a - before.a) <= NEAR * own.a && fabs(own.g - before.g) <= NEAR_DAMPING * g &&
+         fabs(radius - radius_before) <= NEAR_DAMPING * g;
+}
+
 TuningTarget bridge_correct(const Bridge* bridge,
                             TuningTarget target,
                             uint32_t n_masses,
                             BridgeHold* hold,
                             BridgeShift* shift) {
-  const double step_s = 1.0 / target.rate_hz;
-  const double g = -expm1(-2.0 * step_s / target.tone.tau_s);
-  const double wanted = sqrt(1.0 - g);
-  Wish wish = {
-      .angle = 2.0 * PI * target.tone.f0_hz * step_s,
-      .wanted = wanted,
-      .radius = wanted,
-      .least = g * (target.loss + LEAST_GROUND * (1.0 - target.loss)),
-  };
+  const double g = -expm1(-2.0 / (target.tone.tau_s * target.rate_hz));
   if (!(hold->mass * hold->lever > 0.0) || bridge->bank.n_added == 0) {
     return target;
   }
+  Wish wish = wish_of(&target, g);
   Place place = place_of(wish.radius, wish.angle);
-  Local give = give_at(bridge, &place);
+  Give give = give_at(bridge, &place);
   Pole own = guess(&target, g, shift);
   for (int round = 0; round < MOST_ROUNDS; ++round) {
     const TuningTarget asked = ask(target, g, own);
@@ -296,16 +329,14 @@ TuningTarget bridge_correct(const Bridge* bridge,
       place = place_of(wish.radius, wish.angle);
       give = give_at(bridge, &place);
     }
-    Local pull = pull_of_bridge(bridge, coefs, n_masses, *hold, &place, &give);
-    const double kept = kept_of(&pull, &place, own, round == 0 ? MOST_SHARED : MOST_SHARED_AT_LAST);
-    pull = (Local){kept * pull.value, kept * pull.slope};
-    hold->lever *= sqrt(kept);
-    own = own_pole(&wish, &place, &pull);
+    Pull pull = pull_of_bridge(bridge, coefs, n_masses, *hold, &place, &give);
+    const bool is_less =
+        give_way(&pull, own.a, round == 0 ? MOST_SHARED : MOST_SHARED_AT_LAST, hold);
+    own = next_pole(&wish, &place, &pull, own);
     if (!pole_is_complex(own)) {
       return target;
     }
-    if (fabs(own.a - before.a) <= NEAR * own.a && fabs(own.g - before.g) <= NEAR_DAMPING * g &&
-        fabs(wish.radius - place.radius) <= NEAR_DAMPING * g) {
+    if (!is_less && is_near(own, before, wish.radius, place.radius, g)) {
       break;
     }
   }

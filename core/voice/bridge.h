@@ -45,8 +45,8 @@
    Wolves.  Where a mode of the body is at the string's pitch and the two exchange their motion
    faster than the mode loses it, there is no string at that pitch: they are two poles to both sides
    of it, and no a1 and g1 bring one back.  So a string near a mode has as short a lever as leaves
-   it the pole: at most an ε' that is a quarter of D_1', and an ε that is a tenth of a1.  In
-   between, it dies sooner.
+   it the pole: there the body moves, with all its modes and in squares, a quarter as much as the
+   string at the most, r p² φ_1² Σ_i 1/(M_i |D_i|²) ≤ 1/4, and ε is a tenth of a1 at the most.
 
    Thread: any.  All of this room is real-time safe and allocates nothing; what sums over modes
    takes a time that grows with the masses.

@@ -154,8 +154,8 @@ try_string(const TuningTarget* target, uint32_t n_masses, BridgeHold hold, Worst
 static void assert_tuned(const Worst* worst) {
   print_message("  %d decay as they are to, %d have a shorter lever\n", worst->n_exact,
                 worst->n_shortened);
-  assert_within("pitch [cents]", worst->cents, 1e-4);
-  assert_within("decay", worst->decay, 1e-4);
+  assert_within("pitch [cents]", worst->cents, 1e-5);
+  assert_within("decay", worst->decay, 1e-5);
   assert_within("dampers between the masses", worst->between, 1e-9);
   assert_within("asked of the string [cents]", worst->asked, 100.0);
 }
@@ -192,7 +192,7 @@ static void string_on_a_body_has_its_pitch_and_decay(void** state) {
     try_string(&target, draw_masses(&random, &target), draw_hold(&random, &target), &worst);
   }
   assert_true(worst.n_exact > DRAWS / 8 && worst.n_exact < DRAWS);
-  assert_true(worst.n_shortened > 0 && worst.n_shortened < DRAWS / 8);
+  assert_true(worst.n_shortened > 0 && worst.n_shortened < DRAWS / 2);
   assert_tuned(&worst);
 }
 
@@ -303,7 +303,7 @@ static void whole_has_the_poles_of_a_network(void** state) {
   for (int i = 0; i < 20; ++i) {
     strung.n_strings = 0;
     bridge_init(&strung.bridge, 8e3);
-    strung.bridge.bank.a[0] *= 30.0; /* Or the strings' own pull would ask for a negative spring. */
+    strung.bridge.bank.a[0] *= 60.0; /* Or the strings' own pull would ask for a negative spring. */
     for (int j = 0; j < 3; ++j) {
       TuningTarget target = {
           8e3, {random_between(&random, 100.0, 900.0), 0.5}, 0.3, 0.0, PARTIALS_LUMPED};
