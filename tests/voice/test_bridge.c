@@ -264,7 +264,8 @@ static double distance(double complex pole, const Modes* modes) {
   return least;
 }
 
-/* The strings as a network of springs and dampers, h = 1; the links to the bridge have a spring
+/* The strings as a network of springs and dampers, h = 1; the links to the bridge, and what a lever
+ * takes of them to the ground, have a spring
    alone, and the last damper is at the wall. */
 static Network* network_of(void) {
   Network* const network = network_new();
@@ -287,9 +288,10 @@ static Network* network_of(void) {
       network_add_damper(network, point, ground, tie->weight * c.z0);
       before = point;
     }
-    network_add_spring(network, before, bridge, tie->weight * c.k1);
+    network_add_spring(network, before, bridge, tie->weight * tie->pull);
+    network_add_spring(network, before, ground, tie->weight * (c.k1 - tie->pull));
     network_add_damper(network, before, ground, tie->weight * c.z1);
-    spring += tie->spring - tie->weight * c.k1;
+    spring += tie->spring - tie->weight * tie->pull;
   }
   network_add_spring(network, bridge, ground, spring);
   assert_int_equal(network_check(network, NULL), STATUS_OK);
@@ -308,7 +310,9 @@ static void whole_has_the_poles_of_a_network(void** state) {
       TuningTarget target = {
           8e3, {random_between(&random, 100.0, 900.0), 0.5}, 0.3, 0.0, PARTIALS_LUMPED};
       const uint32_t n_masses = 1 + random_below(&random, tuning_max_masses(&target, 12));
-      add_string(&target, n_masses, (BridgeHold){random_between(&random, 0.001, 0.1), 1.0});
+      add_string(
+          &target, n_masses,
+          (BridgeHold){random_between(&random, 0.001, 0.1), random_between(&random, 0.5, 1.0)});
     }
     Network* const network = network_of();
     Modes* modes = NULL;
