@@ -48,6 +48,8 @@ static HarpPatch draw_patch(Random* random) {
   patch.string.tuning_hz = random_between(random, 400.0, 480.0);
   patch.string.max_masses = most_masses[random_below(random, 4)];
   patch.body = draw_body(random);
+  patch.unisons = random_below(random, 4) ? 1 : 1 + random_below(random, 3);
+  patch.second = random_below(random, 4) ? 0.0 : random_between(random, 0.0, 1.0);
   return patch;
 }
 
