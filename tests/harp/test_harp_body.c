@@ -159,6 +159,42 @@ static void gain_of_a_channel_is_the_body_s_as_well(void** state) {
   assert_within("at a quarter of the gain", worst, 1e-6);
 }
 
+/* Of the strings, and so of what they pull by. */
+static void level_is_the_body_s_as_well(void** state) {
+  (void)state;
+  HarpPatch patch = patch_with(0, BODIES_GUITAR, 1.0);
+  patch.body.knock = 0.5;
+  harp_free(play(&patch, 45, left, right));
+  patch.level = 0.25;
+  harp_free(play(&patch, 45, others[0], others[1]));
+  double worst = 0.0;
+  for (int n = 0; n < N_FRAMES; ++n) {
+    worst = fmax(worst, fabs(0.25 * (double)left[n] - (double)others[0][n]));
+  }
+  assert_within("at a quarter of the level", worst, 1e-6);
+}
+
+/* What a pluck makes step is hidden from the body, whatever becomes of the pickup meanwhile. */
+static void body_does_not_know_of_the_pickup(void** state) {
+  (void)state;
+  for (int i = 0; i < 2; ++i) {
+    HarpPatch patch = patch_with(0, BODIES_GUITAR, 1.0);
+    Harp* const harp = harps_new(RATE, &patch);
+    float* const l = i == 0 ? left : others[0];
+    harp_note_on(harp, 0, 45, 100);
+    harp_run(harp, 10, l, right);
+    patch.pickup_type = i == 0 ? patch.pickup_type : PICKUP_VELOCITY;
+    harp_set_patch(harp, &patch, 500);
+    harps_run(harp, N_FRAMES - 10, l + 10, NULL);
+    harp_free(harp);
+  }
+  double worst = 0.0;
+  for (int n = 0; n < N_FRAMES; ++n) {
+    worst = fmax(worst, fabs((double)left[n] - (double)others[0][n]));
+  }
+  assert_within("with another pickup", worst, 1e-6);
+}
+
 /* Only what plucks or strikes knocks, and what it adds is the same whatever the string. */
 static void knock_is_beside_the_string(void** state) {
   (void)state;
@@ -190,14 +226,14 @@ static void run_in_pieces(uint32_t piece, float* l, float* r) {
   Harp* const harp = harps_new(RATE, &patch);
   harp_note_on(harp, 0, 45, 100);
   for (uint32_t done = 0; done < N_FRAMES;) {
-    const uint32_t until = 4800 - done % 4800;
+    const uint32_t until = 1000 - done % 1000;
     const uint32_t n = piece < until ? piece : until;
-    if (until == 4800) {
-      patch.body.choice = (BodiesChoice)(done / 4800 % BODIES_FILE);
-      patch.resonance = done / 4800 % 3 == 2 ? 0.5 : 0.0;
-      patch.pickup = 0.1 + 0.05 * (double)(done / 4800);
+    if (until == 1000) {
+      patch.body.choice = (BodiesChoice)(done / 1000 % BODIES_FILE);
+      patch.resonance = done / 1000 % 3 == 2 ? 0.5 : 0.0;
+      patch.pickup = 0.1 + 0.01 * (double)(done / 1000);
       harp_set_patch(harp, &patch, 500);
-      harp_note_on(harp, 0, 40 + done / 4800, 90);
+      harp_note_on(harp, 0, 40 + done / 1000, 90);
     }
     harp_run(harp, n, l + done, r + done);
     done += n;
@@ -208,7 +244,7 @@ static void run_in_pieces(uint32_t piece, float* l, float* r) {
 static void calls_do_not_change_the_sound(void** state) {
   static const uint32_t pieces[] = {1, 7, 64};
   (void)state;
-  run_in_pieces(4800, left, right);
+  run_in_pieces(1000, left, right);
   for (int i = 0; i < 3; ++i) {
     run_in_pieces(pieces[i], others[0], others[1]);
     assert_memory_equal(others[0], left, sizeof(left));
@@ -237,6 +273,8 @@ int main(void) {
       cmocka_unit_test(what_is_heard_is_the_pull_through_its_modes),
       cmocka_unit_test(mix_goes_from_strings_to_body),
       cmocka_unit_test(gain_of_a_channel_is_the_body_s_as_well),
+      cmocka_unit_test(level_is_the_body_s_as_well),
+      cmocka_unit_test(body_does_not_know_of_the_pickup),
       cmocka_unit_test(knock_is_beside_the_string),
       cmocka_unit_test(calls_do_not_change_the_sound),
       cmocka_unit_test(reset_is_as_new),

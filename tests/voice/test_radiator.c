@@ -148,6 +148,10 @@ static void another_body_fades_in(void** state) {
 static void meddle(uint32_t frame) {
   BodyPatch patch = patch_of((BodiesChoice)(frame / 1000 % BODIES_FILE), 0.1 * (frame / 1000 % 11));
   patch.shape.size = 0.5 + 0.1 * (frame / 1000 % 9);
+  if (frame >= 15000 && frame < 20000) { /* It comes to rest while nothing pulls. */
+    patch = patch_of(BODIES_HARP, 0.5);
+    patch.shape.damping = 200.0;
+  }
   radiator_set(&radiator, &patch, RATE, frame % 3000 == 0 ? 600 : 5000);
   for (uint32_t i = 0; i < frame / 3000; ++i) {
     radiator_knock(&radiator, 0.3, 100 + 30 * i);
@@ -209,6 +213,58 @@ static void what_has_died_away_costs_nothing(void** state) {
   }
 }
 
+/* As nobody pulls, in a moment. */
+static double still_after(uint32_t n_frames) {
+  static float none[256];
+  static float heard[2][256];
+  const BodyPatch patch = patch_of(BODIES_GUITAR, 1.0);
+  double peak = 0.0;
+  for (uint32_t done = 0; done < n_frames; done += 256) {
+    memset(heard, 0, sizeof(heard));
+    radiator_set(&radiator, &patch, RATE, 192);
+    radiator_run(&radiator, none, 256, heard[0], heard[1]);
+    peak = 0.0;
+    for (int n = 0; n < 256; ++n) {
+      peak = fmax(peak, fmax(fabs((double)heard[0][n]), fabs((double)heard[1][n])));
+    }
+  }
+  return peak;
+}
+
+/* And rings as ever when it is played again. */
+static void a_hand_silences_it(void** state) {
+  (void)state;
+  draw();
+  memset(strings, 0, sizeof(strings));
+  begin(patch_of(BODIES_GUITAR, 1.0));
+  run(256, nothing, sides);
+  const double open = still_after(RATE / 10);
+  begin(patch_of(BODIES_GUITAR, 1.0));
+  run(256, nothing, sides);
+  radiator_choke(&radiator);
+  const double choked = still_after(RATE / 10);
+  print_message("  %g, choked %g\n", open, choked);
+  assert_true(open > 1e-3 && choked < 1e-3 * open);
+  assert_true(still_after(RATE) == 0.0);
+  radiator_play(&radiator, RATE, 1.0, 0.0);
+  assert_true(still_after(256) == 0.0 && radiator.fade.n_left == 0);
+  run(256, nothing, sides);
+  hear(BODIES_GUITAR, (BodyShape){1.0, 1.0}, pull, again);
+  assert_within("after it", worst_of(sides, again, 0.0, 1.0, 0), 1e-6);
+}
+
+/* There is nothing to fade from. */
+static void what_is_at_rest_changes_at_once(void** state) {
+  const BodyPatch patch = patch_of(BODIES_VIOLIN, 1.0);
+  (void)state;
+  draw();
+  begin(patch_of(BODIES_GUITAR, 1.0));
+  radiator_set(&radiator, &patch, RATE, 192);
+  run(256, nothing, sides);
+  hear(BODIES_VIOLIN, (BodyShape){1.0, 1.0}, pull, again);
+  assert_within("another body", worst_of(sides, again, 0.0, 1.0, 0), 1e-6);
+}
+
 static void file_is_heard_when_it_comes_and_when_it_goes(void** state) {
   BodyPatch patch = patch_of(BODIES_FILE, 1.0);
   (void)state;
@@ -236,6 +292,8 @@ int main(void) {
       cmocka_unit_test(calls_do_not_change_the_sound),
       cmocka_unit_test(knock_is_a_raised_cosine),
       cmocka_unit_test(what_has_died_away_costs_nothing),
+      cmocka_unit_test(a_hand_silences_it),
+      cmocka_unit_test(what_is_at_rest_changes_at_once),
       cmocka_unit_test(file_is_heard_when_it_comes_and_when_it_goes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
