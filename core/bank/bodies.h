@@ -27,6 +27,8 @@
 typedef enum { BODIES_NONE, BODIES_LIST(BODIES_ENUM) BODIES_FILE, BODIES_COUNT } BodiesChoice;
 #undef BODIES_ENUM
 
+_Static_assert(BODIES_FILE == 12, "sessions store it");
+
 /** What the player of an instrument sets of its body. */
 typedef struct {
   BodiesChoice choice;
